@@ -9,6 +9,7 @@
 #include <map>
 
 #include "base/allowance.h"
+#include "base/parallel.h"
 #include "base/text.h"
 #include "builtins/catalogue.h"
 #include "city/drape.h"
@@ -206,8 +207,8 @@ DeriveOptions optionsOf(const DeriveSettings& settings, const Rules::Impl& rules
 
 }  // namespace
 
-void Model::Impl::makeSound() {
-  sound = soundOf(result.scene);
+void Model::Impl::makeSound(unsigned jobs) {
+  sound = soundOf(result.scene, jobs);
   if (!sound.scene) return;
   std::string text;
   if (sound.leavesLeftOut > 0) {
@@ -306,7 +307,7 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
        {outsideValues(initial, r), unusedProperties(shapes.impl(), r)}) {
     impl->diagnostics.insert(impl->diagnostics.end(), some.begin(), some.end());
   }
-  impl->makeSound();
+  impl->makeSound(options.jobs > 0 ? static_cast<unsigned>(options.jobs) : defaultJobs());
   if (shapes.impl().terrain) layOnTerrain(*impl, *shapes.impl().terrain, options, now() - begin);
   impl->seconds = now() - begin;
   return impl;

@@ -102,7 +102,7 @@ struct Model::Impl {
 
   const Scene& scene() const { return sound.scene ? *sound.scene : result.scene; }
   /// Where result.scene has been made or changed. Tells what is left out.
-  void makeSound();
+  void makeSound(unsigned jobs = 1);
 };
 
 /// Cuts footprints out of larger ones that they lie in or overlap: flat faces at one height only.

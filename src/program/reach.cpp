@@ -22,6 +22,10 @@ struct CodeUnit {
   /// Units that it calls or asks, and attributes that it reads.
   std::vector<uint32_t> calls, attributes;
   bool sets = false;
+  /// An operation of it waits for what comes of its children.
+  bool gathers = false;
+  /// Instructions that ask for room.
+  std::vector<uint32_t> asking;
 };
 
 class Hash {
@@ -41,9 +45,10 @@ class Hash {
 class Units {
  public:
   explicit Units(const Program& p) : p_(p) {
-    for (const RuleCode& r : p.rules) units_.push_back({r.entry, 0, 0, {}, {}, false});
-    for (const FunctionCode& f : p.functions) units_.push_back({f.entry, 0, 0, {}, {}, false});
-    for (const AttributeCode& a : p.attributes) units_.push_back({a.entry, 0, 0, {}, {}, false});
+    const auto add = [&](const auto& code) { units_.emplace_back().entry = code.entry; };
+    for (const RuleCode& r : p.rules) add(r);
+    for (const FunctionCode& f : p.functions) add(f);
+    for (const AttributeCode& a : p.attributes) add(a);
     findEnds();
     for (uint32_t u = 0; u < units_.size(); ++u) read(u);
   }
@@ -125,6 +130,8 @@ class Units {
       case Code::OperationConstant:
       case Code::ComponentValues:
         addChoice(h, p_.operations[i.a]);
+        u.gathers = u.gathers || p_.operations[i.a]->gathered != nullptr;
+        if ((p_.operations[i.a]->effects & kAsksForRoom) != 0) u.asking.push_back(at);
         if (i.code == Code::OperationConstant) addConstants(h, u, p_.code[at + 1].a, i.x);
         if (i.y > 0) addBlock(h, u, p_.blocks[i.y - 1u]);
         break;
@@ -301,6 +308,86 @@ class Folding {
   std::vector<Component> components_;
 };
 
+// Goes through the rules that are not left out.
+class Within {
+ public:
+  Within(const Program& program, uint32_t effects)
+      : program_(program),
+        effects_(effects),
+        units_(Units(program).take()),
+        folding_(units_, program.attributes.size()),
+        met_(program.rules.size()),
+        bits_((program.attributes.size() + 63) / 64) {}
+
+  Reach of(std::span<const uint32_t> roots) {
+    for (const uint32_t root : roots) meet(root);
+    std::vector<uint64_t> parts;
+    while (!open_.empty()) {
+      const uint32_t rule = open_.back();
+      open_.pop_back();
+      parts.push_back(hashOf(rule));
+    }
+    std::sort(parts.begin(), parts.end());
+    Reach out;
+    for (const uint64_t part : parts) out.code = hashCombine(out.code, part);
+    out.setsAttributes = sets_;
+    for (uint32_t a = 0; a < program_.attributes.size(); ++a) {
+      if (bits_[a / 64] >> a % 64 & 1) out.attributes.push_back(a);
+    }
+    return out;
+  }
+
+ private:
+  void meet(uint32_t rule) {
+    if (met_[rule]) return;
+    met_[rule] = true;
+    open_.push_back(rule);
+  }
+
+  uint64_t hashOf(uint32_t rule) {
+    const CodeUnit& u = units_[rule];
+    Hash h;
+    h.add(u.own);
+    for (const uint32_t at : u.asking) {
+      const Span& span = program_.spans[at];
+      h.add(uint64_t{span.file}).add(uint64_t{span.begin} << 32 | span.end);
+    }
+    sets_ = sets_ || u.sets;
+    for (const uint32_t to : u.calls) {
+      const bool isRule = to < program_.rules.size();
+      if (isRule && !u.gathers) {
+        if ((program_.rules[to].reads.effects & effects_) != 0) meet(to);
+      } else if (isRule || isRead(u, to)) {
+        h.add(whole(to));
+      }
+    }
+    for (const uint32_t a : u.attributes) bits_[a / 64] |= uint64_t{1} << a % 64;
+    return h.value();
+  }
+
+  // What a shape is merely given says nothing.
+  bool isRead(const CodeUnit& u, uint32_t unit) const {
+    const size_t first = program_.rules.size() + program_.functions.size();
+    return unit < first ||
+           std::find(u.attributes.begin(), u.attributes.end(), unit - first) != u.attributes.end();
+  }
+
+  uint64_t whole(uint32_t unit) {
+    const Folding::Component& c = folding_.of(unit);
+    for (size_t w = 0; w < bits_.size(); ++w) bits_[w] |= c.attributes[w];
+    return hashCombine(c.code, units_[unit].own);
+  }
+
+  const Program& program_;
+  const uint32_t effects_;
+  const std::vector<CodeUnit> units_;
+  Folding folding_;
+  std::vector<bool> met_;
+  std::vector<uint32_t> open_;
+  std::vector<uint64_t> bits_;
+  bool sets_ = false;
+};
+
 }  // namespace
 
 std::vector<Reach> reachOf(const Program& program) {
@@ -316,6 +403,10 @@ std::vector<Reach> reachOf(const Program& program) {
     }
   }
   return out;
+}
+
+Reach reachWithin(const Program& program, std::span<const uint32_t> roots, uint32_t effects) {
+  return Within(program, effects).of(roots);
 }
 
 }  // namespace gable

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "program/program.h"
@@ -25,5 +26,11 @@ struct Reach {
 
 /// By rule of the program. O(code + calls + rules * attributes).
 std::vector<Reach> reachOf(const Program& program);
+
+/// What the rules `roots` do where rules that have none of the effects, nor lead to any that has,
+/// are left out, as in the pass that finds out who asks for room; within operations that gather
+/// nothing is left out. The values that attributes start with count where something reads them.
+/// Places in the text count for operations that ask for room, which are told by them.
+Reach reachWithin(const Program& program, std::span<const uint32_t> roots, uint32_t effects);
 
 }  // namespace gable

@@ -19,12 +19,14 @@
 #include <mutex>
 #include <unordered_set>
 
+#include "base/dispose.h"
 #include "base/hash.h"
 #include "base/parallel.h"
 #include "base/work.h"
 #include "program/reach.h"
 #include "runtime/machine.h"
 #include "runtime/recall.h"
+#include "runtime/room_key.h"
 
 namespace gable {
 
@@ -241,13 +243,30 @@ bool anyHas(uint32_t effects, const Program& program, const std::vector<InitialS
 MergeInput mergeInput(const DeriveShared& shared, Recall* recall) {
   const Environment& e = shared.environment;
   MergeInput input{shared.program, e.materials, e.attributes, shared.options.sources, recall};
+  if (shared.before.recall) input.before = &shared.before;
   if (const auto bytes = shared.options.limits.bytes) input.mostAttributeBytes = *bytes / 4;
   return input;
 }
 
+// What the workers made, until merge() has emptied it. Who has stopped the derivation does not wait
+// until it is freed.
+struct MadeOutputs {
+  explicit MadeOutputs(Pass& pass, const Usage& use) : usage(use) {
+    for (auto& m : pass.machines) all.push_back(std::move(m->output()));
+  }
+  ~MadeOutputs() {
+    if (usage.cancelled() && !all.empty()) disposeLater(std::move(all));
+  }
+  MadeOutputs(const MadeOutputs&) = delete;
+  MadeOutputs& operator=(const MadeOutputs&) = delete;
+
+  const Usage& usage;
+  std::vector<Output> all;
+};
+
 // The scene of all that the workers made, the messages and the trace.
 void assemble(Pass& pass, DeriveShared& shared, const std::vector<InitialShape>& shapes,
-              DeriveResult& result) {
+              const std::shared_ptr<RoomPlan>& rooms, DeriveResult& result) {
   for (auto& m : pass.machines) {
     result.shared += m->cacheHits();
     if (const IncrementalCache* cache = m->incremental()) result.recalled += cache->taken();
@@ -261,9 +280,12 @@ void assemble(Pass& pass, DeriveShared& shared, const std::vector<InitialShape>&
     recall->tables = &shared.environment;
     for (const AttributeCode& a : shared.program.attributes) recall->attributes.push_back(a.name);
     gatherParts(pass, *recall);
+    if (shared.roomKey) {
+      recall->rooms = rooms;
+      recall->roomsKey = *shared.roomKey;
+    }
   }
-  std::vector<Output> outputs;
-  for (auto& m : pass.machines) outputs.push_back(std::move(m->output()));
+  MadeOutputs outputs(pass, shared.usage);
   std::vector<const OutputUnit*> roots;
   for (size_t i = 0; i < shapes.size(); ++i) {
     if (!pass.derived[i]) continue;
@@ -271,7 +293,8 @@ void assemble(Pass& pass, DeriveShared& shared, const std::vector<InitialShape>&
     result.roots.push_back({i, 0});
   }
   result.attributes = std::move(pass.attributes);
-  Merged merged = merge(outputs, roots, pass.portions->units(), mergeInput(shared, recall.get()));
+  Merged merged =
+      merge(outputs.all, roots, pass.portions->units(), mergeInput(shared, recall.get()));
   result.scene = std::move(merged.scene);
   for (size_t r = 0; r < result.roots.size(); ++r) {
     result.roots[r].reportsEnd = merged.reportsEnd[r];
@@ -327,12 +350,13 @@ std::unique_ptr<DeriveResult> failed(const Status& why) {
 }
 
 std::unique_ptr<DeriveResult> assembled(Pass& pass, DeriveShared& shared,
-                                        const std::vector<InitialShape>& shapes) {
+                                        const std::vector<InitialShape>& shapes,
+                                        const std::shared_ptr<RoomPlan>& rooms) {
   AfterwardsMeter meter(shared.usage);
   auto result = std::make_unique<DeriveResult>();
   const Status status = guarded([&] {
     const WorkScope scope(meter);
-    assemble(pass, shared, shapes, *result);
+    assemble(pass, shared, shapes, rooms, *result);
     return Status();
   });
   if (status.ok()) return result;
@@ -348,6 +372,8 @@ std::unique_ptr<DeriveResult> assembled(Pass& pass, DeriveShared& shared,
 
 struct Way {
   unsigned jobs = 1;
+  /// What the derivation before has found out about room is of use.
+  bool takesRooms = true;
   /// Initial shapes are divided among workers.
   bool divides = false;
   /// Rules ask about other shapes, or for room among them.
@@ -374,7 +400,7 @@ class BetweenMeter final : public WorkMeter {
 
 // What the first pass found out.
 struct FirstPass {
-  std::unique_ptr<RoomPlan> rooms;
+  std::shared_ptr<RoomPlan> rooms;
   std::unique_ptr<OccluderIndex> occluders;
   /// The first initial shape that a limit ended there.
   std::optional<Machine::LimitOfShape> limit;
@@ -390,7 +416,7 @@ FirstPass firstPassOf(Pass& pass, const DeriveShared& shared) {
     if (shared.collectClaims) {
       std::vector<RoomClaims> claims;
       for (auto& m : pass.machines) claims.push_back(std::move(m->claims()));
-      out.rooms = std::make_unique<RoomPlan>(std::move(claims));
+      out.rooms = std::make_shared<RoomPlan>(std::move(claims));
     }
     if (shared.collectOccluders) {
       out.occluders = std::make_unique<OccluderIndex>(takeOccluders(pass, out.rooms.get()));
@@ -470,7 +496,14 @@ std::unique_ptr<DeriveResult> deriveIn(Way way, const Program& program,
     shared.before = recallInput(options.before, program, environment);
   }
   FirstPass known;
-  if (way.asks || way.asksForRoom) {
+  bool tookRooms = false;
+  if (options.remember && way.asksForRoom) {
+    shared.roomKey = roomKey(program, shapes, options);
+    const Recall* const before = way.takesRooms ? shared.before.recall : nullptr;
+    tookRooms = before && before->rooms && shared.roomKey == before->roomsKey;
+    if (tookRooms) known.rooms = before->rooms;
+  }
+  if (way.asks || (way.asksForRoom && !tookRooms)) {
     shared.collectOccluders = way.asks;
     shared.collectClaims = way.asksForRoom;
     Pass first = runPass(shared, shapes, way.jobs, false);
@@ -478,21 +511,30 @@ std::unique_ptr<DeriveResult> deriveIn(Way way, const Program& program,
     if (!first.failure.ok()) return failed(first.failure);
     known = firstPassOf(first, shared);
     if (known.failure) return std::move(known.failure);
-    shared.rooms = known.rooms.get();
     shared.occluders = known.occluders.get();
     shared.collectOccluders = shared.collectClaims = false;
     usage.startAgain();
+    // What a limit has cut is of no use to anyone else.
+    if (shared.limitReached) shared.roomKey.reset();
   }
+  shared.rooms = known.rooms.get();
   Pass pass = runPass(shared, shapes, way.jobs, way.divides);
   if (way.jobs > 1 && usage.exhaustedByCount()) return nullptr;
   // What is over by the clock, by memory or by the user's wish is told as it is.
   if (shared.indivisible && !usage.exhausted() && !usage.cancelled()) return nullptr;
 
+  // A limit may have been reached in the first pass already, had there been one.
+  const bool outOfTimeOrMemory = usage.exhausted() && !usage.exhaustedByCount();
+  if (tookRooms && shared.limitReached && !outOfTimeOrMemory) {
+    usage.startAgain();
+    way.takesRooms = false;
+    return deriveIn(way, program, shapes, environment, options, usage);
+  }
   if (!pass.failure.ok()) return failed(pass.failure);
   // The scene needs their room.
-  if (known.rooms) known.rooms->forgetAnswers();
+  if (known.rooms && !shared.roomKey) known.rooms->forgetAnswers();
   known.occluders.reset();
-  auto result = assembled(pass, shared, shapes);
+  auto result = assembled(pass, shared, shapes, known.rooms);
   if (known.rooms) {
     tellRooms(pass, *known.rooms, shared, *result);
     if (known.limit) {
@@ -529,8 +571,8 @@ DeriveResult derive(const Program& program, const std::vector<InitialShape>& sha
   }
   if (!made) {
     usage.startAgain();
-    made = deriveIn(Way{1, false, way.asks, way.asksForRoom}, program, shapes, environment, options,
-                    usage);
+    made = deriveIn(Way{1, true, false, way.asks, way.asksForRoom}, program, shapes, environment,
+                    options, usage);
   }
   return std::move(*made);
 }

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "runtime/recall.h"
+
 namespace gable {
 namespace {
 
@@ -54,6 +56,23 @@ TEST(Holes, AUnitIsDividedFromTheFirstPortionOn) {
   EXPECT_FALSE(holes.anyPending());
   holes.take();
   EXPECT_FALSE(holes.any());
+}
+
+TEST(Holes, WhatIsTakenOverDividesNoUnit) {
+  Holes holes;
+  const RecallPart part;
+  holes.fill(part, atLeaf(2), 1);
+  EXPECT_FALSE(holes.any());
+  EXPECT_EQ(holes.placed(), 1u);
+  EXPECT_EQ(holes.portions(), 0u);
+  holes.leave(0, 10);
+  holes.place(0, atLeaf(3), 1);
+  EXPECT_EQ(holes.portions(), 1u);
+  const std::vector<OutputHole> placed = holes.take();
+  ASSERT_EQ(placed.size(), 2u);
+  EXPECT_EQ(placed[0].taken, &part);
+  EXPECT_EQ(placed[0].at.leaves, 2u);
+  EXPECT_EQ(placed[1].taken, nullptr);
 }
 
 TEST(Holes, AUnitThatALimitEndsLeavesNone) {

@@ -158,15 +158,17 @@ ShareKey IncrementalCache::keyOf(const Call& call) {
   return h.key();
 }
 
-bool IncrementalCache::beginPart(const ShareKey& key, uint32_t rule, const Moment& now) {
+const RecallPart* IncrementalCache::beginPart(const ShareKey& key, uint32_t rule,
+                                              const Moment& now) {
   if (const RecallPart* known = recaller_ ? recaller_->part(key) : nullptr) {
     ruleCosts_[rule].add(known->steps);
     takePart(*known, now.holes);
-    return true;
+    return known;
   }
   OpenPart& open = open_.emplace_back();
   open.rule = rule;
   open.warnings = now.warnings;
+  open.portions = now.portions;
   RecallPart& part = open.part;
   part.key = key;
   part.begin = prototypes_.placeInUnit();
@@ -177,7 +179,7 @@ bool IncrementalCache::beginPart(const ShareKey& key, uint32_t rule, const Momen
   part.shapes = tally_.made();
   part.shapesExpanded = tally_.expanded();
   part.steps = tally_.steps();
-  return false;
+  return nullptr;
 }
 
 void IncrementalCache::endPart(const Moment& now) {
@@ -185,36 +187,30 @@ void IncrementalCache::endPart(const Moment& now) {
   open_.pop_back();
   RecallPart part = open.part;
   part.end = prototypes_.placeInUnit();
+  part.holesEnd = static_cast<uint32_t>(now.holes);
   part.endOperation = static_cast<uint32_t>(operations_.size());
   part.shapes = tally_.made() - part.shapes;
   part.shapesExpanded = tally_.expanded() - part.shapesExpanded;
   part.steps = tally_.steps() - part.steps;
   ruleCosts_[open.rule].add(part.steps);
-  const bool whole = part.holes == now.holes;
+  const bool whole = open.portions == now.portions;
   if (part.steps >= kManySteps && now.warnings == open.warnings && whole) parts_.push_back(part);
 }
 
 // The parts inside come along: the next derivation may know them where it does not know this one.
 void IncrementalCache::takePart(const RecallPart& known, size_t holes) {
-  const Output::Mark now = prototypes_.placeInUnit();
-  recaller_->take(known, prototypes_.unitMark());
+  recaller_->take(known);
   const std::vector<RecallPart>& all = recaller_->recall().parts;
   const auto self = static_cast<uint32_t>(&known - all.data());
   const uint32_t partShift = static_cast<uint32_t>(parts_.size()) - known.firstInside;
   const uint32_t operationShift = static_cast<uint32_t>(operations_.size()) - known.firstOperation;
-  const auto moved = [&](const Output::Mark& m) {
-    return Output::Mark{m.leaves - known.begin.leaves + now.leaves,
-                        m.instances - known.begin.instances + now.instances,
-                        m.events - known.begin.events + now.events};
-  };
   for (uint32_t p = known.firstInside; p <= self; ++p) {
     RecallPart copy = all[p];
     copy.firstInside += partShift;
     copy.firstOperation += operationShift;
     copy.endOperation += operationShift;
-    copy.begin = moved(copy.begin);
-    copy.end = moved(copy.end);
-    copy.holes = static_cast<uint32_t>(holes);
+    copy.holes = copy.holesEnd = static_cast<uint32_t>(holes);
+    copy.taken = true;
     parts_.push_back(copy);
   }
   for (uint32_t o = known.firstOperation; o < known.endOperation; ++o) {

@@ -68,13 +68,15 @@ class IncrementalCache {
     uint64_t path = 0;
   };
   ShareKey keyOf(const Call& call);
-  /// What tells whether a part is whole and silent.
+  /// What tells whether a part is whole and silent, and where it is.
   struct Moment {
     uint64_t warnings = 0;
-    size_t holes = 0;
+    /// Holes that were placed in the unit by now: those of portions, and all.
+    size_t portions = 0, holes = 0;
   };
-  /// True when the result was known: it lies in the output, and its steps are counted.
-  bool beginPart(const ShareKey& key, uint32_t rule, const Moment& now);
+  /// The part, when the result is known: it has been counted, and the caller leaves a hole for it
+  /// at this moment. Else null.
+  const RecallPart* beginPart(const ShareKey& key, uint32_t rule, const Moment& now);
   void endPart(const Moment& now);
 
   // Prototypes.
@@ -135,6 +137,7 @@ class IncrementalCache {
     RecallPart part;
     uint32_t rule = 0;
     uint64_t warnings = 0;
+    size_t portions = 0;
   };
 
   const Program& program_;

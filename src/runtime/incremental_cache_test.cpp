@@ -284,19 +284,27 @@ TEST_F(IncrementalCacheTest, TakesAPartOverToWhereItIsCalledNow) {
   makeLeaves(10);
   prototypes.beginUnit();
   makeLeaves(1);
-  ASSERT_TRUE(cache->beginPart(kKey, 0, {0, 0}));
-  ASSERT_EQ(output.openLeaves.size(), 14u);
-  EXPECT_EQ(output.openLeaves[11].scale.x, 2);
-  EXPECT_EQ(output.openLeaves[13].scale.x, 4);
-  EXPECT_EQ(output.openLeaves[13].name, 4u);
-  EXPECT_EQ(output.openLeaves[13].source, 1u);
+  EXPECT_EQ(cache->beginPart(kKey, 0, {0, 0, 5}), &recall.parts[0]);
+  EXPECT_EQ(output.openLeaves.size(), 11u);
   EXPECT_EQ(tally.made(), 3u);
   EXPECT_EQ(tally.steps(), kMany);
   EXPECT_EQ(cache->taken(), 3u);
   // It is kept for the derivation after this one.
   ASSERT_EQ(cache->parts().size(), 1u);
-  EXPECT_EQ(cache->parts()[0].begin.leaves, 1u);
-  EXPECT_EQ(cache->parts()[0].end.leaves, 4u);
+  EXPECT_TRUE(cache->parts()[0].taken);
+  EXPECT_EQ(cache->parts()[0].holes, 5u);
+  EXPECT_EQ(cache->parts()[0].begin.leaves, 2u);
+  EXPECT_EQ(cache->parts()[0].end.leaves, 5u);
+}
+
+// What was taken over within a part leaves a hole there, and the part is kept.
+TEST_F(IncrementalCacheTest, KeepsPartsAroundWhatWasTakenOver) {
+  ASSERT_FALSE(cache->beginPart(kKey, 0, {0, 1, 2}));
+  tally.countSteps(kMany);
+  cache->endPart({0, 1, 4});
+  ASSERT_EQ(cache->parts().size(), 1u);
+  EXPECT_EQ(cache->parts()[0].holes, 2u);
+  EXPECT_EQ(cache->parts()[0].holesEnd, 4u);
 }
 
 }  // namespace

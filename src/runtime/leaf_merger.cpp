@@ -41,6 +41,7 @@ void inverse(const Numbers& numbers, std::vector<T>& out, size_t count) {
 }
 
 bool sameMesh(const Mesh& a, const Mesh& b) {
+  if (&a == &b) return true;
   const auto sameFace = [](const MeshFace& f, const MeshFace& g) {
     return f.firstLoop == g.firstLoop && f.loopCount == g.loopCount &&
            f.materialSlot == g.materialSlot && f.smooth == g.smooth && f.tags == g.tags;
@@ -57,7 +58,8 @@ bool sameMesh(const Mesh& a, const Mesh& b) {
 
 }  // namespace
 
-LeafMerger::LeafMerger(std::vector<Output>& outputs, const MergeInput& input, Scene& scene)
+LeafMerger::LeafMerger(std::vector<Output>& outputs, const MergeInput& input, Scene& scene,
+                       size_t most)
     : outputs_(outputs), input_(input), scene_(scene), workers_(outputs.size()) {
   for (size_t w = 0; w < outputs.size(); ++w) {
     workers_[w].meshes.assign(outputs[w].meshes.size(), kUnset);
@@ -67,12 +69,20 @@ LeafMerger::LeafMerger(std::vector<Output>& outputs, const MergeInput& input, Sc
   attributeNumbers_.emplace(0, 0);
   meshNumbers_.reserve(total(outputs, &Output::meshes));
   // A single worker finishes prototypes in the order of the walk, so its leaves stay in place.
-  if (outputs.size() == 1) {
+  if (staysInPlace()) {
     scene_.leaves = std::move(outputs[0].leaves);
-  } else {
-    scene_.leaves.reserve(total(outputs, &Output::leaves));
-    start();
+    return;
   }
+  scene_.leaves.reserve(most);
+  if (input.before) {
+    const Scene& from = *input.before->scene;
+    before_.meshes.assign(from.meshes.size(), kUnset);
+    before_.materials.assign(from.materialLists.size(), kUnset);
+    before_.names.assign(from.names.size(), kUnset);
+    before_.sources.assign(from.sources.size(), kUnset);
+    before_.attributes.assign(from.attributeSets.size(), kUnset);
+  }
+  if (outputs.size() > 1) start();
 }
 
 LeafMerger::~LeafMerger() {
@@ -93,21 +103,16 @@ void LeafMerger::start() {
   }
 }
 
-void LeafMerger::addPrototype(StringId name, uint32_t worker, uint32_t firstLeaf,
-                              uint32_t leafCount) {
-  put({nullptr, name, worker, firstLeaf, leafCount});
-}
+void LeafMerger::addPrototype(StringId name, const Range& leaves) { put({nullptr, name, leaves}); }
 
-void LeafMerger::addLeaves(uint32_t worker, uint32_t firstLeaf, uint32_t leafCount) {
-  put({nullptr, kNoName, worker, firstLeaf, leafCount});
-}
+void LeafMerger::addLeaves(const Range& leaves) { put({nullptr, kNoName, leaves}); }
 
-void LeafMerger::addRoot(const std::string& name) { put({&name, kNoName, 0, 0, 0}); }
+void LeafMerger::addRoot(const std::string& name) { put({&name, kNoName, {}}); }
 
 void LeafMerger::put(const Item& item) {
   if (!thread_.joinable()) return take(item);
   batch_.push_back(item);
-  leavesOfBatch_ += item.leafCount;
+  leavesOfBatch_ += item.leaves.count;
   if (batch_.size() >= kItemsOfBatch || leavesOfBatch_ >= kLeavesOfBatch) handOver();
 }
 
@@ -186,20 +191,29 @@ void LeafMerger::take(const Item& item) {
     return;
   }
   if (item.prototypeName != kNoName) prototypeNames_.push_back(nameNumber(item.prototypeName));
-  takeLeaves(item);
+  takeLeaves(item.leaves);
 }
 
-void LeafMerger::takeLeaves(const Item& item) {
+void LeafMerger::takeLeaves(const Range& range) {
+  const bool isTaken = range.worker == outputs_.size();
   Leaf* leaves = nullptr;
-  if (outputs_.size() == 1) {
-    leaves = scene_.leaves.data() + item.firstLeaf;
+  if (staysInPlace()) {
+    leaves = scene_.leaves.data() + range.first;
   } else {
-    const auto from = outputs_[item.worker].leaves.begin() + item.firstLeaf;
-    scene_.leaves.insert(scene_.leaves.end(), from, from + item.leafCount);
-    leaves = scene_.leaves.data() + scene_.leaves.size() - item.leafCount;
+    const std::vector<Leaf>& all =
+        isTaken ? input_.before->scene->leaves : outputs_[range.worker].leaves;
+    const auto from = all.begin() + range.first;
+    scene_.leaves.insert(scene_.leaves.end(), from, from + range.count);
+    leaves = scene_.leaves.data() + scene_.leaves.size() - range.count;
     taken_ = scene_.leaves.size();
   }
-  for (uint32_t i = 0; i < item.leafCount; ++i) renumber(leaves[i], item.worker);
+  for (uint32_t i = 0; i < range.count; ++i) {
+    work();
+    if (isTaken)
+      renumberTaken(leaves[i], range);
+    else
+      renumber(leaves[i], range.worker);
+  }
 }
 
 void LeafMerger::explain(Recall& recall) const {
@@ -216,9 +230,16 @@ void LeafMerger::explain(Recall& recall) const {
 }
 
 void LeafMerger::renumber(Leaf& leaf, uint32_t worker) {
-  work();
-  if (leaf.mesh >= kFirstMesh) leaf.mesh = meshNumber(worker, leaf.mesh - kFirstMesh);
-  leaf.materials = materialsNumber(worker, leaf.materials);
+  Worker& w = workers_[worker];
+  if (leaf.mesh >= kFirstMesh) {
+    const uint32_t mesh = leaf.mesh - kFirstMesh;
+    uint32_t& known = w.meshes[mesh];
+    if (known == kUnset) known = meshNumber(outputs_[worker].meshes[mesh]);
+    leaf.mesh = known;
+  }
+  uint32_t& materials = w.materials[leaf.materials];
+  if (materials == kUnset) materials = materialsNumber(outputs_[worker].materials[leaf.materials]);
+  leaf.materials = materials;
   // Neighbours often agree, which spares the look-ups.
   if (leaf.name != lastName_.first) lastName_ = {leaf.name, nameNumber(leaf.name)};
   leaf.name = lastName_.second;
@@ -231,26 +252,46 @@ void LeafMerger::renumber(Leaf& leaf, uint32_t worker) {
   leaf.attributes = lastAttributes_.second;
 }
 
-uint32_t LeafMerger::meshNumber(uint32_t worker, uint32_t mesh) {
-  uint32_t& known = workers_[worker].meshes[mesh];
-  if (known != kUnset) return known;
-  const MeshRef& m = outputs_[worker].meshes[mesh];
+// What the leaf refers to in the scene before, in the order in which renumber() has it.
+void LeafMerger::renumberTaken(Leaf& leaf, const Range& range) {
+  const Recall& recall = *input_.before->recall;
+  const auto now = [](std::vector<uint32_t>& numbers, uint32_t& number, auto&& made) {
+    uint32_t& known = numbers[number];
+    if (known == kUnset) known = made(number);
+    number = known;
+  };
+  if (leaf.mesh >= kFirstMesh) {
+    now(before_.meshes, leaf.mesh,
+        [&](uint32_t mesh) { return meshNumber(input_.before->scene->meshes[mesh]); });
+  }
+  now(before_.materials, leaf.materials,
+      [&](uint32_t list) { return materialsNumber(recall.materials[list]); });
+  now(before_.names, leaf.name, [&](uint32_t name) { return nameNumber(recall.names[name]); });
+  now(before_.sources, leaf.source,
+      [&](uint32_t source) { return sourceNumber(input_.before->instructions[source]); });
+  if (leaf.attributes == 0) return;
+  const uint32_t set = recall.attributeSets[leaf.attributes];
+  if (set == range.attributesBefore && set != range.attributesNow) {
+    leaf.attributes = range.attributesNow == 0 ? 0 : attributesNumber(range.attributesNow);
+    return;
+  }
+  now(before_.attributes, leaf.attributes, [&](uint32_t) { return attributesNumber(set); });
+}
+
+uint32_t LeafMerger::meshNumber(const MeshRef& m) {
   work(m->positions.size());
   // Others of the same hash have the next keys.
   ShareKey key{m->sharedHash(), 0};
   for (; const uint32_t* const at = meshNumbers_.find(key); ++key.b) {
-    if (sameMesh(*scene_.meshes[*at], *m)) return known = *at;
+    if (sameMesh(*scene_.meshes[*at], *m)) return *at;
   }
-  known = static_cast<uint32_t>(scene_.meshes.size());
+  const auto number = static_cast<uint32_t>(scene_.meshes.size());
   scene_.meshes.push_back(m);
-  meshNumbers_.emplace(key, known);
-  return known;
+  meshNumbers_.emplace(key, number);
+  return number;
 }
 
-uint32_t LeafMerger::materialsNumber(uint32_t worker, uint32_t list) {
-  uint32_t& known = workers_[worker].materials[list];
-  if (known != kUnset) return known;
-  const uint64_t pair = outputs_[worker].materials[list];
+uint32_t LeafMerger::materialsNumber(uint64_t pair) {
   const auto [at, fresh] =
       listNumbers_.try_emplace(pair, static_cast<uint32_t>(scene_.materialLists.size()));
   if (fresh) {
@@ -260,7 +301,7 @@ uint32_t LeafMerger::materialsNumber(uint32_t worker, uint32_t list) {
     }
     scene_.materialLists.push_back(std::move(slots));
   }
-  return known = at->second;
+  return at->second;
 }
 
 uint32_t LeafMerger::materialNumber(MaterialId id) {

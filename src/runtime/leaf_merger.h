@@ -22,15 +22,23 @@ namespace gable {
 /// else may use them before finish().
 class LeafMerger {
  public:
-  /// All must outlive it. The leaves of a single worker stay where they are.
-  LeafMerger(std::vector<Output>& outputs, const MergeInput& input, Scene& scene);
+  /// All must outlive it. The leaves of a single worker stay where they are, unless leaves of the
+  /// scene before are put between them. `most`: so many leaves at most will be added.
+  LeafMerger(std::vector<Output>& outputs, const MergeInput& input, Scene& scene, size_t most);
   ~LeafMerger();
   LeafMerger(const LeafMerger&) = delete;
   LeafMerger& operator=(const LeafMerger&) = delete;
 
+  /// Some leaves that follow each other in what a worker made or, where the worker's number is that
+  /// behind the last, in the scene before.
+  struct Range {
+    uint32_t worker = 0, first = 0, count = 0;
+    /// Those of the scene before with the one set of attributes get the other.
+    uint32_t attributesBefore = 0, attributesNow = 0;
+  };
   /// The next prototype of the scene, and leaves of it; more of its leaves may follow.
-  void addPrototype(StringId name, uint32_t worker, uint32_t firstLeaf, uint32_t leafCount);
-  void addLeaves(uint32_t worker, uint32_t firstLeaf, uint32_t leafCount);
+  void addPrototype(StringId name, const Range& leaves);
+  void addLeaves(const Range& leaves);
   /// The next root of the scene. The name must outlive the merger.
   void addRoot(const std::string& name);
   /// Returns when all is taken over, and gives the scene's prototypes and roots their names.
@@ -45,11 +53,15 @@ class LeafMerger {
   struct Item {
     const std::string* root = nullptr;
     uint32_t prototypeName = kNoName;
-    uint32_t worker = 0, firstLeaf = 0, leafCount = 0;
+    Range leaves;
   };
   static constexpr uint32_t kNoName = 0xffffffff;
   struct Worker {
     std::vector<uint32_t> meshes, materials;
+  };
+  /// By number in the scene before.
+  struct Before {
+    std::vector<uint32_t> meshes, materials, names, sources, attributes;
   };
 
   void start();
@@ -58,10 +70,12 @@ class LeafMerger {
   void makeRoom();
   void takeAll() noexcept;
   void take(const Item& item);
-  void takeLeaves(const Item& item);
+  void takeLeaves(const Range& range);
   void renumber(Leaf& leaf, uint32_t worker);
-  uint32_t meshNumber(uint32_t worker, uint32_t mesh);
-  uint32_t materialsNumber(uint32_t worker, uint32_t list);
+  void renumberTaken(Leaf& leaf, const Range& range);
+  bool staysInPlace() const { return outputs_.size() == 1 && !input_.before; }
+  uint32_t meshNumber(const MeshRef& mesh);
+  uint32_t materialsNumber(uint64_t pair);
   uint32_t materialNumber(MaterialId id);
   uint32_t nameNumber(StringId id);
   uint32_t sourceNumber(uint32_t instruction);
@@ -89,6 +103,7 @@ class LeafMerger {
 
   // Of who takes over.
   std::vector<Worker> workers_;
+  Before before_;
   /// By prototype and root of the scene.
   std::vector<uint32_t> prototypeNames_, rootNames_;
   /// What was asked for last, and its number.

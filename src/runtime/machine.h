@@ -58,6 +58,8 @@ struct DeriveShared {
   const OccluderIndex* occluders = nullptr;
   /// The first pass of a derivation whose rules ask about other shapes.
   bool collectOccluders = false;
+  /// The next derivation may have the answers of this one, under that key.
+  std::optional<ShareKey> roomKey;
   /// The answers to shapes that ask for room; null in the first pass and where none asks.
   const RoomPlan* rooms = nullptr;
   /// The first pass of a derivation whose shapes ask for room.

@@ -13,7 +13,9 @@
 
 namespace gable {
 
-IncrementalCache::Moment Machine::moment() const { return {log_.warnings(), holes_.placed()}; }
+IncrementalCache::Moment Machine::moment() const {
+  return {log_.warnings(), holes_.portions(), holes_.placed()};
+}
 
 bool Machine::beginPart(Activation& call) {
   const bool due = !isFirstPass() && worksInTheOpen() && !aborted_;
@@ -25,7 +27,8 @@ bool Machine::beginPart(Activation& call) {
   const ShareKey key =
       incremental_->keyOf({call.rule, call.depth, call.shape, stack_.from(call.parameters), locals_,
                            asksForPath ? hashBytes(treeKey()) | 1 : 0});
-  if (incremental_->beginPart(key, call.rule, moment())) {
+  if (const RecallPart* const taken = incremental_->beginPart(key, call.rule, moment())) {
+    holes_.fill(*taken, prototypes_.placeInUnit(), log_.count());
     tick(0);
     return true;
   }

@@ -23,24 +23,14 @@ constexpr uint32_t kUnset = 0xffffffff;
 
 class Merger {
  public:
-  Merger(std::vector<Output>& outputs, const std::deque<OutputUnit>& portions,
-         const MergeInput& input)
+  Merger(std::vector<Output>& outputs, const std::vector<const OutputUnit*>& roots,
+         const std::deque<OutputUnit>& portions, const MergeInput& input)
       : outputs_(outputs),
         portions_(portions),
         input_(input),
-        workers_(outputs.size()),
-        leaves_(outputs, input, scene_) {
-    size_t instances = 0, prototypes = 0;
-    for (size_t w = 0; w < outputs.size(); ++w) {
-      workers_[w].prototypes.assign(outputs[w].prototypes.size(), kUnset);
-      instances += outputs[w].instances.size();
-      prototypes += outputs[w].prototypes.size();
-    }
-    scene_.instances.reserve(instances);
-    scene_.prototypes.reserve(prototypes);
-    if (input.recall) input.recall->prototypes.reserve(prototypes);
-    byKey_.reserve(prototypes);
-  }
+        workers_(outputs.size() + 1),
+        before_(static_cast<uint32_t>(outputs.size())),
+        leaves_(outputs, input, scene_, makeRoom(roots)) {}
 
   void addRoot(const OutputUnit& r) {
     const std::vector<Segment> segments = segmentsOf(r);
@@ -50,21 +40,23 @@ class Merger {
     root.instance = {r.frame, prototype, 0};
     scene_.roots.push_back(root);
     leaves_.addRoot(r.name);
-    for (const Segment& s : segments) replay(s.worker, s.content, s.from.instances);
+    for (const Segment& s : segments) replay(s);
     reportsEnd_.push_back(scene_.reports.size());
   }
 
   /// Puts a part to where its unit came to lie in the scene.
   void place(RecallPart& part) const {
     const Worker& w = workers_[part.worker];
-    const auto at = w.segments.find(uint64_t{part.prototype} << 32 | part.holes);
+    const auto move = [&](Output::Mark& mark, uint32_t hole) {
+      const auto at = w.segments.find(segmentKey(part.prototype, hole, part.taken));
+      if (at == w.segments.end()) return;
+      mark.leaves += at->second.leaves;
+      mark.instances += at->second.instances;
+      mark.events += at->second.events;
+    };
+    move(part.begin, part.holes);
+    move(part.end, part.holesEnd);
     part.prototype = w.prototypes[part.prototype];
-    if (at == w.segments.end()) return;
-    for (Output::Mark* mark : {&part.begin, &part.end}) {
-      mark->leaves += at->second.leaves;
-      mark->instances += at->second.instances;
-      mark->events += at->second.events;
-    }
   }
 
   /// What the scene's numbers stand for.
@@ -79,64 +71,153 @@ class Merger {
   }
 
  private:
+  /// Who has made prototypes: a worker, or behind the last of them the derivation before.
   struct Worker {
     std::vector<uint32_t> prototypes;
-    /// By prototype and hole of units that were put together: how far what lies behind the hole
-    /// before has been moved. Unsigned differences wrap around, and back again.
+    /// By segmentKey(), of units that were put together: how far what lies there has been moved.
+    /// Unsigned differences wrap around, and back again.
     std::unordered_map<uint64_t, Output::Mark> segments;
   };
 
-  /// What lies in a unit between two holes: part of a prototype, and where it begins there.
+  /// What lies in a unit between two holes, or in a hole from the scene before: a part of a
+  /// prototype, and where it begins there.
   struct Segment {
-    uint32_t worker = 0, prototype = 0, hole = 0;
+    uint32_t worker = 0, prototype = 0;
     Output::Mark from;
     OutputPrototype content;
+    /// Where RecallParts look for it.
+    uint32_t unitWorker = 0;
+    uint64_t key = 0;
   };
+
+  static uint64_t segmentKey(uint32_t prototype, size_t hole, bool taken) {
+    return uint64_t{prototype} << 32 | static_cast<uint64_t>(hole) << 1 | uint64_t{taken};
+  }
+
+  // Room for what the outputs hold and what they have taken over. The number of leaves at most.
+  size_t makeRoom(const std::vector<const OutputUnit*>& roots) {
+    size_t instances = 0, prototypes = 0, leaves = 0;
+    for (size_t w = 0; w < outputs_.size(); ++w) {
+      const Output& from = outputs_[w];
+      workers_[w].prototypes.assign(from.prototypes.size(), kUnset);
+      instances += from.instances.size() + from.takenInstances.size();
+      prototypes += from.prototypes.size();
+      leaves += from.leaves.size();
+      for (const OutputPrototype& p : from.prototypes) {
+        if (p.isTaken() && p.isChanged()) leaves += p.range.leafCount;
+      }
+    }
+    if (input_.before) {
+      const Scene& scene = *input_.before->scene;
+      workers_[before_].prototypes.assign(scene.prototypes.size(), kUnset);
+      instances += scene.instances.size();
+      prototypes += scene.prototypes.size();
+      leaves += scene.leaves.size();
+      const auto addHoles = [&](const OutputUnit& unit) {
+        for (const OutputHole& hole : unit.holes) {
+          if (!hole.taken) continue;
+          leaves += hole.taken->end.leaves - hole.taken->begin.leaves;
+          instances += hole.taken->end.instances - hole.taken->begin.instances;
+        }
+      };
+      for (const OutputUnit* unit : roots) addHoles(*unit);
+      for (const OutputUnit& unit : portions_) addHoles(unit);
+    }
+    scene_.instances.reserve(instances);
+    scene_.prototypes.reserve(prototypes);
+    if (input_.recall) input_.recall->prototypes.reserve(prototypes);
+    byKey_.reserve(prototypes);
+    return leaves;
+  }
+
+  // What a worker made, or the derivation before.
+
+  const Prototype& rangeOf(uint32_t worker, uint32_t prototype) const {
+    return worker == before_ ? input_.before->scene->prototypes[prototype]
+                             : outputs_[worker].prototypes[prototype].range;
+  }
+  const Instance* instancesOf(uint32_t worker) const {
+    return (worker == before_ ? input_.before->scene->instances : outputs_[worker].instances)
+        .data();
+  }
+  const OutputEvent* eventsOf(uint32_t worker) const {
+    return (worker == before_ ? input_.before->recall->events : outputs_[worker].events).data();
+  }
+  /// The number in the scene before of a prototype that comes from there; OutputPrototype::kOwn.
+  uint32_t takenOf(uint32_t worker, uint32_t prototype) const {
+    return worker == before_ ? prototype : outputs_[worker].prototypes[prototype].taken;
+  }
+  /// The worker's number of what it holds in the place of an instance.
+  uint32_t innerOf(uint32_t worker, uint32_t prototype, uint32_t instance) const {
+    const uint32_t at = rangeOf(worker, prototype).firstInstance + instance;
+    if (worker != before_ && outputs_[worker].prototypes[prototype].isTaken()) {
+      return outputs_[worker].takenInstances[at];
+    }
+    return instancesOf(worker)[at].prototype;
+  }
 
   std::vector<Segment> segmentsOf(const OutputUnit& unit) const {
     std::vector<Segment> out;
-    forEachSegment(unit, portions_, [&](const OutputUnit& u, size_t hole) {
+    const auto own = [&](const OutputUnit& u, size_t hole) {
       const OutputPrototype& whole = outputs_[u.worker].prototypes[u.prototype];
-      Segment s{u.worker, u.prototype, static_cast<uint32_t>(hole), {}, whole};
-      if (hole > 0) s.from = u.holes[hole - 1].at;
+      const Output::Mark begin = hole > 0 ? u.holes[hole - 1].at : Output::Mark{};
       const Output::Mark end =
           hole < u.holes.size()
               ? u.holes[hole].at
               : Output::Mark{whole.range.leafCount, whole.range.instanceCount, whole.eventCount};
-      s.content.range.firstLeaf += s.from.leaves;
-      s.content.range.leafCount = end.leaves - s.from.leaves;
-      s.content.range.firstInstance += s.from.instances;
-      s.content.range.instanceCount = end.instances - s.from.instances;
-      s.content.firstEvent += s.from.events;
-      s.content.eventCount = end.events - s.from.events;
+      Segment s{u.worker, u.prototype, begin,
+                whole,    u.worker,    segmentKey(u.prototype, hole, false)};
+      cut(s, end);
       // Each unit counts its shapes once.
       if (hole > 0) s.content.range.shapes = 0;
       out.push_back(s);
-    });
+    };
+    const auto taken = [&](const OutputUnit& u, size_t hole) {
+      const RecallPart& part = *u.holes[hole].taken;
+      const Recall::PrototypeNotes& notes = input_.before->recall->prototypes[part.prototype];
+      Segment s{before_, part.prototype, part.begin,
+                {},      u.worker,       segmentKey(u.prototype, hole, true)};
+      s.content.range = rangeOf(before_, part.prototype);
+      s.content.firstEvent = notes.firstEvent;
+      s.content.speaks = notes.speaks;
+      cut(s, part.end);
+      // The unit has counted them.
+      s.content.range.shapes = 0;
+      out.push_back(s);
+    };
+    forEachSegment(unit, portions_, own, taken);
     return out;
+  }
+
+  // Leaves of a whole prototype what lies from the begin of the segment to its end.
+  static void cut(Segment& s, const Output::Mark& end) {
+    s.content.range.firstLeaf += s.from.leaves;
+    s.content.range.leafCount = end.leaves - s.from.leaves;
+    s.content.range.firstInstance += s.from.instances;
+    s.content.range.instanceCount = end.instances - s.from.instances;
+    s.content.firstEvent += s.from.events;
+    s.content.eventCount = end.events - s.from.events;
   }
 
   // One prototype of the scene, of several units.
   uint32_t join(const std::vector<Segment>& segments) {
     for (const Segment& s : segments) {
       const Prototype& range = s.content.range;
-      for (uint32_t i = 0; i < range.instanceCount; ++i) {
-        import(s.worker, outputs_[s.worker].instances[range.firstInstance + i].prototype);
-      }
+      const Instance* const from = instancesOf(s.worker) + range.firstInstance;
+      for (uint32_t i = 0; i < range.instanceCount; ++i) import(s.worker, from[i].prototype);
     }
     Prototype to;
-    leaves_.addPrototype(segments[0].content.range.name, 0, 0, 0);
+    leaves_.addPrototype(segments[0].content.range.name, {});
     to.firstInstance = static_cast<uint32_t>(scene_.instances.size());
     to.firstLeaf = leafCount_;
     Recall::PrototypeNotes notes;
     if (input_.recall) notes.firstEvent = static_cast<uint32_t>(input_.recall->events.size());
     const auto number = static_cast<uint32_t>(scene_.prototypes.size());
     for (const Segment& s : segments) {
-      Worker& w = workers_[s.worker];
       const Output::Mark shift{to.leafCount - s.from.leaves, to.instanceCount - s.from.instances,
                                notes.eventCount - s.from.events};
-      w.prototypes[s.prototype] = number;
-      w.segments.emplace(uint64_t{s.prototype} << 32 | s.hole, shift);
+      if (s.worker != before_) workers_[s.worker].prototypes[s.prototype] = number;
+      workers_[s.unitWorker].segments.emplace(s.key, shift);
       append(s, shift, to);
       if (input_.recall) remember(s, shift, notes);
       to.shapes += s.content.range.shapes;
@@ -156,24 +237,24 @@ class Merger {
   }
 
   void append(const Segment& s, const Output::Mark& shift, Prototype& to) {
-    const Output& from = outputs_[s.worker];
     const Prototype& range = s.content.range;
+    const Instance* const from = instancesOf(s.worker) + range.firstInstance;
     for (uint32_t i = 0; i < range.instanceCount; ++i) {
       work();
-      Instance& copy = scene_.instances.emplace_back(from.instances[range.firstInstance + i]);
+      Instance& copy = scene_.instances.emplace_back(from[i]);
       copy.prototype = workers_[s.worker].prototypes[copy.prototype];
       copy.leavesBefore += shift.leaves;
     }
-    leaves_.addLeaves(s.worker, range.firstLeaf, range.leafCount);
+    leaves_.addLeaves({s.worker, range.firstLeaf, range.leafCount});
     leafCount_ += range.leafCount;
     to.instanceCount += range.instanceCount;
     to.leafCount += range.leafCount;
   }
 
   void remember(const Segment& s, const Output::Mark& shift, Recall::PrototypeNotes& notes) {
-    const Output& from = outputs_[s.worker];
+    const OutputEvent* const from = eventsOf(s.worker) + s.content.firstEvent;
     for (uint32_t e = 0; e < s.content.eventCount; ++e) {
-      OutputEvent copy = from.events[s.content.firstEvent + e];
+      OutputEvent copy = from[e];
       copy.instancesBefore += shift.instances;
       input_.recall->events.push_back(copy);
     }
@@ -181,22 +262,43 @@ class Merger {
     notes.speaks = notes.speaks || s.content.speaks;
   }
 
-  void remember(const Output& output, const OutputPrototype& p) {
+  void remember(uint32_t worker, uint32_t prototype) {
     Recall& recall = *input_.recall;
-    recall.prototypes.push_back(
-        {p.key, static_cast<uint32_t>(recall.events.size()), p.eventCount, p.speaks, p.attributes});
-    recall.events.insert(recall.events.end(), output.events.begin() + p.firstEvent,
-                         output.events.begin() + p.firstEvent + p.eventCount);
+    Recall::PrototypeNotes notes;
+    const uint32_t taken = takenOf(worker, prototype);
+    if (taken != OutputPrototype::kOwn) notes = input_.before->recall->prototypes[taken];
+    if (worker != before_) {
+      const OutputPrototype& p = outputs_[worker].prototypes[prototype];
+      notes.key = p.key;
+      notes.attributes = p.attributes;
+      notes.speaks = p.speaks;
+      if (!p.isTaken()) notes.firstEvent = p.firstEvent, notes.eventCount = p.eventCount;
+    }
+    const OutputEvent* const events =
+        eventsOf(taken == OutputPrototype::kOwn ? worker : before_) + notes.firstEvent;
+    notes.firstEvent = static_cast<uint32_t>(recall.events.size());
+    recall.events.insert(recall.events.end(), events, events + notes.eventCount);
+    recall.prototypes.push_back(notes);
   }
 
-  static bool isShared(const OutputPrototype& p) { return p.key.a != 0 || p.key.b != 0; }
+  ShareKey keyOf(uint32_t worker, uint32_t prototype) const {
+    return worker == before_ ? input_.before->recall->prototypes[prototype].key
+                             : outputs_[worker].prototypes[prototype].key;
+  }
+  static bool isShared(const ShareKey& key) { return key.a != 0 || key.b != 0; }
 
-  // True where the scene has a worker's prototype, or an equal one.
+  // True where the scene has a worker's prototype, or an equal one. What is taken over as it was
+  // comes from the scene before, and has a key that nothing else has.
   bool imported(uint32_t worker, uint32_t prototype) {
     uint32_t& known = workers_[worker].prototypes[prototype];
     if (known != kUnset) return true;
+    if (worker == before_) return false;
     const OutputPrototype& from = outputs_[worker].prototypes[prototype];
-    if (!isShared(from)) return false;
+    if (from.isTaken() && !from.isChanged()) {
+      known = import(before_, from.taken);
+      return true;
+    }
+    if (!isShared(from.key)) return false;
     const uint32_t* const inScene = byKey_.find(from.key);
     if (inScene) known = *inScene;
     return inScene != nullptr;
@@ -208,15 +310,13 @@ class Merger {
     struct Open {
       uint32_t prototype, next;
     };
-    std::vector<Open> open;
-    if (!imported(worker, prototype)) open.push_back({prototype, 0});
+    if (imported(worker, prototype)) return workers_[worker].prototypes[prototype];
+    std::vector<Open> open{{prototype, 0}};
     while (!open.empty()) {
       work();
       Open& top = open.back();
-      const Prototype& range = outputs_[worker].prototypes[top.prototype].range;
-      if (top.next < range.instanceCount) {
-        const uint32_t inner =
-            outputs_[worker].instances[range.firstInstance + top.next++].prototype;
+      if (top.next < rangeOf(worker, top.prototype).instanceCount) {
+        const uint32_t inner = innerOf(worker, top.prototype, top.next++);
         if (!imported(worker, inner)) open.push_back({inner, 0});
         continue;
       }
@@ -227,52 +327,88 @@ class Merger {
   }
 
   void takeOver(uint32_t worker, uint32_t prototype) {
-    const OutputPrototype& from = outputs_[worker].prototypes[prototype];
-    Prototype to = from.range;
+    const uint32_t taken = takenOf(worker, prototype);
+    const uint32_t source = taken == OutputPrototype::kOwn ? worker : before_;
+    const Prototype& content = rangeOf(source, source == worker ? prototype : taken);
+    const Prototype& range = rangeOf(worker, prototype);
+    Prototype to = range;
     to.firstInstance = static_cast<uint32_t>(scene_.instances.size());
-    for (uint32_t i = 0; i < from.range.instanceCount; ++i) {
+    const Instance* const from = instancesOf(source) + content.firstInstance;
+    for (uint32_t i = 0; i < range.instanceCount; ++i) {
       work();
-      Instance& copy =
-          scene_.instances.emplace_back(outputs_[worker].instances[from.range.firstInstance + i]);
-      copy.prototype = workers_[worker].prototypes[copy.prototype];
+      const uint32_t inner = innerOf(worker, prototype, i);
+      Instance& copy = scene_.instances.emplace_back(from[i]);
+      copy.prototype = workers_[worker].prototypes[inner];
     }
-    if (outputs_.size() > 1) to.firstLeaf = leafCount_;
-    leaves_.addPrototype(from.range.name, worker, from.range.firstLeaf, from.range.leafCount);
-    leafCount_ += from.range.leafCount;
+    LeafMerger::Range leaves{source, content.firstLeaf, content.leafCount};
+    StringId name = range.name;
+    if (worker == before_) {
+      name = input_.before->recall->names[name];
+    } else {
+      leaves.attributesBefore = outputs_[worker].prototypes[prototype].attributesBefore;
+      leaves.attributesNow = outputs_[worker].prototypes[prototype].attributesNow;
+    }
+    if (outputs_.size() > 1 || input_.before) to.firstLeaf = leafCount_;
+    leaves_.addPrototype(name, leaves);
+    leafCount_ += range.leafCount;
     to.empty = isEmpty(to);
     scene_.prototypes.push_back(to);
-    if (input_.recall) remember(outputs_[worker], from);
+    if (input_.recall) remember(worker, prototype);
     const auto number = static_cast<uint32_t>(scene_.prototypes.size() - 1);
     workers_[worker].prototypes[prototype] = number;
-    if (isShared(from)) byKey_.emplace(from.key, number);
+    const ShareKey key = keyOf(worker, prototype);
+    if (isShared(key)) byKey_.emplace(key, number);
   }
 
   bool full() const { return events_ > input_.mostEvents || eventBytes_ > input_.mostEventBytes; }
 
+  /// What a prototype, or a segment of one, reports and prints.
+  struct Speech {
+    uint32_t worker = 0, prototype = 0;
+    const OutputEvent* events = nullptr;
+    uint32_t eventCount = 0, firstInstance = 0, instanceCount = 0;
+    bool speaks = false;
+    /// Those that come next.
+    uint32_t event = 0, instance = 0;
+  };
+
+  Speech speechOf(uint32_t worker, uint32_t prototype) const {
+    const uint32_t count = rangeOf(worker, prototype).instanceCount;
+    const uint32_t taken = takenOf(worker, prototype);
+    if (taken == OutputPrototype::kOwn) {
+      const OutputPrototype& p = outputs_[worker].prototypes[prototype];
+      return {worker, prototype, eventsOf(worker) + p.firstEvent, p.eventCount, 0, count, p.speaks};
+    }
+    const Recall::PrototypeNotes& notes = input_.before->recall->prototypes[taken];
+    const bool isChanged = worker != before_ && outputs_[worker].prototypes[prototype].isChanged();
+    return {isChanged ? worker : before_,
+            isChanged ? prototype : taken,
+            eventsOf(before_) + notes.firstEvent,
+            notes.eventCount,
+            0,
+            count,
+            notes.speaks};
+  }
+
   // Instances multiply: a few nested calls can stand for more prints than memory holds.
-  // `before`: instances of the prototype that lie before `content`.
-  void replay(uint32_t worker, const OutputPrototype& content, uint32_t before) {
-    struct Open {
-      const OutputPrototype* prototype;
-      uint32_t before, event, instance;
-    };
-    const Output& out = outputs_[worker];
-    std::vector<Open> open{{&content, before, 0, 0}};
+  void replay(const Segment& s) {
+    std::vector<Speech> open{{s.worker, s.prototype, eventsOf(s.worker) + s.content.firstEvent,
+                              s.content.eventCount, s.from.instances, s.content.range.instanceCount,
+                              s.content.speaks}};
     while (!open.empty() && !full()) {
       work();
-      Open& top = open.back();
-      const OutputPrototype& p = *top.prototype;
-      for (; top.event < p.eventCount; ++top.event) {
-        const OutputEvent& e = out.events[p.firstEvent + top.event];
-        if (e.instancesBefore != top.before + top.instance) break;
+      Speech& top = open.back();
+      for (; top.event < top.eventCount; ++top.event) {
+        const OutputEvent& e = top.events[top.event];
+        if (e.instancesBefore != top.firstInstance + top.instance) break;
         speak(e);
       }
-      if (!p.speaks || top.instance == p.range.instanceCount) {
+      if (!top.speaks || top.instance == top.instanceCount) {
         open.pop_back();
         continue;
       }
-      const Instance& next = out.instances[p.range.firstInstance + top.instance++];
-      open.push_back({&out.prototypes[next.prototype], 0, 0, 0});
+      const uint32_t next = innerOf(top.worker, top.prototype, top.firstInstance + top.instance++);
+      open.push_back(speechOf(top.worker, next));
     }
   }
 
@@ -295,6 +431,8 @@ class Merger {
   const std::deque<OutputUnit>& portions_;
   const MergeInput& input_;
   std::vector<Worker> workers_;
+  /// The number among the workers of the derivation before.
+  const uint32_t before_;
   uint64_t events_ = 0, eventBytes_ = 0;
   uint32_t leafCount_ = 0;
   std::vector<size_t> reportsEnd_;
@@ -336,7 +474,7 @@ AttributeValue plainAttribute(const std::string& name, const Value& v, const Val
 
 Merged merge(std::vector<Output>& outputs, const std::vector<const OutputUnit*>& roots,
              const std::deque<OutputUnit>& portions, const MergeInput& input) {
-  Merger merger(outputs, portions, input);
+  Merger merger(outputs, roots, portions, input);
   for (const OutputUnit* r : roots) merger.addRoot(*r);
   merger.finish();
   if (input.recall) {

@@ -47,6 +47,7 @@ void Output::drop() {
   leaves.clear();
   instances.clear();
   events.clear();
+  takenInstances.clear();
   openLeaves.clear();
   openInstances.clear();
   openEvents.clear();
@@ -100,10 +101,10 @@ uint32_t moveTail(std::vector<T>& from, uint32_t begin, std::vector<T>& to, uint
 
 }  // namespace
 
-void Output::makeRoomFor(const Prototype& content) {
-  makeRoom(leaves, content.leafCount);
-  makeRoom(instances, content.instanceCount);
+uint32_t Output::addTaken(const OutputPrototype& prototype) {
   makeRoom(prototypes, 1);
+  prototypes.push_back(prototype);
+  return static_cast<uint32_t>(prototypes.size() - 1);
 }
 
 uint32_t Output::close(const Mark& from, StringId name, uint64_t shapes, const ShareKey& key) {

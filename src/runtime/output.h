@@ -29,6 +29,8 @@ struct OutputEvent {
 };
 
 struct OutputPrototype {
+  static constexpr uint32_t kOwn = 0xffffffff;
+
   Prototype range;
   uint32_t firstEvent = 0, eventCount = 0;
   /// It or something inside reports or prints.
@@ -37,6 +39,16 @@ struct OutputPrototype {
   ShareKey key;
   /// The set of attributes of the shape that the call worked on, which is a part of the key.
   uint32_t attributes = 0;
+
+  // Of one that was taken over; nothing of it lies in the output.
+  /// Its number in the scene before; kOwn: it was derived.
+  uint32_t taken = kOwn;
+  /// Leaves that had the one set of attributes get the other.
+  uint32_t attributesBefore = 0, attributesNow = 0;
+  bool isTaken() const { return taken != kOwn; }
+  /// It differs from the one before, and range.firstInstance is the place in takenInstances of the
+  /// output's numbers of what it holds.
+  bool isChanged() const { return attributesBefore != attributesNow; }
 };
 
 /// Leaves hold the worker's own numbers: mesh by Output::meshes, materials by Output::materials,
@@ -47,6 +59,7 @@ struct Output {
   std::vector<Leaf> leaves;
   std::vector<Instance> instances;
   std::vector<OutputEvent> events;
+  std::vector<uint32_t> takenInstances;
   /// Content of the prototypes that are still open, the innermost last.
   std::vector<Leaf> openLeaves;
   std::vector<Instance> openInstances;
@@ -65,8 +78,8 @@ struct Output {
     uint32_t leaves = 0, instances = 0, events = 0;
   };
   Mark mark() const;
-  /// For a finished prototype that is added to the lists.
-  void makeRoomFor(const Prototype& content);
+  /// Adds a prototype that was taken over, and gives its number.
+  uint32_t addTaken(const OutputPrototype& prototype);
   /// Forgets all, with the numbering of meshes and materials. Keeps its memory.
   void drop();
   /// Moves what lies open beyond the marks into a finished prototype and gives its number. Where
@@ -78,13 +91,18 @@ struct Output {
   uint32_t lastMaterialNumber_ = 0;
 };
 
-/// A place in a unit where what a portion of it made belongs.
+struct RecallPart;
+
+/// A place in a unit where what a portion of it made belongs, or what was taken over from the scene
+/// before and stays there until the outputs are merged.
 struct OutputHole {
   /// The number of the portion's unit.
   uint32_t unit = 0;
   /// Counted from the beginning of the unit.
   Output::Mark at;
   size_t messages = 0;
+  /// What was taken over; null for a portion.
+  const RecallPart* taken = nullptr;
 };
 
 /// What a worker made in one go: an initial shape, or a portion of one (runtime/portion.h). Its
@@ -108,6 +126,8 @@ struct MergeInput {
   const Sources* sources = nullptr;
   /// Gets what the scene's numbers stand for, where it is not null; see runtime/recall.h.
   struct Recall* recall = nullptr;
+  /// Where what was taken over lies; null where nothing can have been.
+  const struct RecallInput* before = nullptr;
   /// Reports and prints, instances expanded, and the bytes of their texts.
   uint64_t mostEvents = 20'000'000;
   uint64_t mostEventBytes = uint64_t{1} << 30;
@@ -133,9 +153,11 @@ Merged merge(std::vector<Output>& outputs, const std::vector<const OutputUnit*>&
              const std::deque<OutputUnit>& portions, const MergeInput& input);
 
 /// Calls visit(unit, hole) for a unit and those that fill its holes, in path order: for each, the
-/// content that lies before its hole of that number, or behind the last hole.
-template <class Visit>
-void forEachSegment(const OutputUnit& unit, const std::deque<OutputUnit>& portions, Visit&& visit) {
+/// content that lies before its hole of that number, or behind the last hole. Calls taken(unit,
+/// hole) for a hole with what was taken over.
+template <class Visit, class Taken>
+void forEachSegment(const OutputUnit& unit, const std::deque<OutputUnit>& portions, Visit&& visit,
+                    Taken&& taken) {
   struct Open {
     const OutputUnit* unit;
     size_t hole;
@@ -146,11 +168,20 @@ void forEachSegment(const OutputUnit& unit, const std::deque<OutputUnit>& portio
     visit(*at.unit, at.hole);
     if (at.hole == at.unit->holes.size()) {
       open.pop_back();
-    } else {
-      ++open.back().hole;
-      open.push_back({&portions[at.unit->holes[at.hole].unit], 0});
+      continue;
     }
+    ++open.back().hole;
+    const OutputHole& hole = at.unit->holes[at.hole];
+    if (hole.taken)
+      taken(*at.unit, at.hole);
+    else
+      open.push_back({&portions[hole.unit], 0});
   }
+}
+
+template <class Visit>
+void forEachSegment(const OutputUnit& unit, const std::deque<OutputUnit>& portions, Visit&& visit) {
+  forEachSegment(unit, portions, visit, [](const OutputUnit&, size_t) {});
 }
 
 }  // namespace gable

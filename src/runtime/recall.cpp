@@ -60,8 +60,7 @@ Recaller::Recaller(const RecallInput& input, Output& output, KeyNumbers& cache)
       output_(output),
       cache_(cache),
       prototypes_(scene_.prototypes.size(), kUnset),
-      meshes_(scene_.meshes.size(), kUnset),
-      materials_(recall_.materials.size(), kUnset) {}
+      counted_(scene_.prototypes.size()) {}
 
 const RecallPart* Recaller::part(const ShareKey& key) const {
   const uint32_t* const number = recall_.partNumbers.find(key);
@@ -75,32 +74,11 @@ std::shared_ptr<const RecallOperation> Recaller::operation(const ShareKey& key) 
 
 Recaller::Counts Recaller::counts() { return std::exchange(counts_, Counts{}); }
 
-Leaf Recaller::leaf(const Leaf& from) {
-  Leaf to = from;
-  if (from.mesh >= kFirstMesh) {
-    const MeshRef& mesh = scene_.meshes[from.mesh];
-    uint32_t& known = meshes_[from.mesh];
-    if (known == kUnset) known = output_.meshNumber(mesh);
-    to.mesh = kFirstMesh + known;
-    counts_.vertices += mesh->positions.size();
+void Recaller::countLeaves(const Leaf* leaves, uint32_t count) {
+  for (uint32_t l = 0; l < count; ++l) {
+    const uint32_t mesh = leaves[l].mesh;
+    if (mesh >= kFirstMesh) counts_.vertices += scene_.meshes[mesh]->positions.size();
   }
-  uint32_t& materials = materials_[from.materials];
-  if (materials == kUnset) {
-    const uint64_t pair = recall_.materials[from.materials];
-    materials =
-        output_.materialNumber(static_cast<MaterialId>(pair >> 32), static_cast<uint32_t>(pair));
-  }
-  to.materials = materials;
-  to.name = recall_.names[from.name];
-  to.source = input_.instructions[from.source];
-  to.attributes = recall_.attributeSets[from.attributes];
-  if (to.attributes == attributesBefore_) to.attributes = attributesNow_;
-  return to;
-}
-
-uint32_t& Recaller::known(uint32_t number) {
-  if (attributesBefore_ == attributesNow_) return prototypes_[number];
-  return changed_.try_emplace(number, kUnset).first->second;
 }
 
 ShareKey Recaller::keyNow(uint32_t number) const {
@@ -109,48 +87,20 @@ ShareKey Recaller::keyNow(uint32_t number) const {
   return withAttributes(withoutAttributes(notes.key, attributesBefore_), attributesNow_);
 }
 
-// True where the output has the prototype already.
-bool Recaller::isTaken(uint32_t number) {
-  uint32_t& at = known(number);
-  if (at != kUnset) return true;
-  const uint32_t* const inOutput = cache_.find(keyNow(number));
-  if (inOutput) at = *inOutput;
-  return inOutput != nullptr;
-}
-
-Instance Recaller::instance(const Instance& from) {
-  Instance to = from;
-  if (isTaken(from.prototype)) ++counts_.shared;
-  to.prototype = prototype(from.prototype);
-  return to;
-}
-
-void Recaller::take(const RecallPart& part, const Output::Mark& base) {
+void Recaller::take(const RecallPart& part) {
   const Prototype& from = scene_.prototypes[part.prototype];
-  const Recall::PrototypeNotes& notes = recall_.prototypes[part.prototype];
-  const Output::Mark now = output_.mark();
-  // Unsigned differences wrap around, and back again when they are added.
-  const uint32_t leafShift = now.leaves - base.leaves - part.begin.leaves;
-  const uint32_t instanceShift = now.instances - base.instances - part.begin.instances;
   for (uint32_t i = part.begin.instances; i < part.end.instances; ++i) {
-    Instance copy = instance(scene_.instances[from.firstInstance + i]);
-    copy.leavesBefore += leafShift;
-    output_.openInstances.push_back(copy);
+    count(scene_.instances[from.firstInstance + i].prototype);
   }
-  for (uint32_t e = part.begin.events; e < part.end.events; ++e) {
-    OutputEvent copy = recall_.events[notes.firstEvent + e];
-    copy.instancesBefore += instanceShift;
-    output_.openEvents.push_back(copy);
-  }
-  for (uint32_t l = part.begin.leaves; l < part.end.leaves; ++l) {
-    output_.openLeaves.push_back(leaf(scene_.leaves[from.firstLeaf + l]));
-  }
+  countLeaves(scene_.leaves.data() + from.firstLeaf + part.begin.leaves,
+              part.end.leaves - part.begin.leaves);
 }
 
 bool Recaller::takePrototype(const ShareKey& key, uint32_t& number) {
   const uint32_t* const before = recall_.prototypeNumbers.find(key);
   if (!before) return false;
-  number = prototype(*before);
+  count(*before);
+  number = asItWas(*before);
   return true;
 }
 
@@ -159,64 +109,114 @@ bool Recaller::takePrototypeAs(const ShareKey& key, uint32_t attributes, uint32_
   if (!before) return false;
   attributesBefore_ = recall_.prototypes[*before].attributes;
   attributesNow_ = attributes;
-  number = prototype(*before);
+  number = changed(*before);
   attributesBefore_ = attributesNow_ = 0;
   changed_.clear();
   return true;
 }
 
+// Shared calls nest as deep as rules do, so those at work are a list.
+void Recaller::count(uint32_t number) {
+  std::vector<uint32_t> open;
+  const auto meet = [&](uint32_t prototype) {
+    if (counted_[prototype]) {
+      ++counts_.shared;
+      return;
+    }
+    counted_[prototype] = true;
+    open.push_back(prototype);
+  };
+  meet(number);
+  while (!open.empty()) {
+    const Prototype& from = scene_.prototypes[open.back()];
+    open.pop_back();
+    countLeaves(scene_.leaves.data() + from.firstLeaf, from.leafCount);
+    for (uint32_t i = 0; i < from.instanceCount; ++i) {
+      meet(scene_.instances[from.firstInstance + i].prototype);
+    }
+  }
+}
+
+// As it was, but for its key.
+OutputPrototype Recaller::taken(uint32_t number) const {
+  const Recall::PrototypeNotes& notes = recall_.prototypes[number];
+  OutputPrototype to;
+  to.range = scene_.prototypes[number];
+  to.range.name = recall_.names[to.range.name];
+  to.attributes = notes.attributes;
+  to.speaks = notes.speaks;
+  to.taken = number;
+  return to;
+}
+
+// What it holds is known by it, and is not looked at before somebody asks.
+uint32_t Recaller::asItWas(uint32_t number) {
+  uint32_t& known = prototypes_[number];
+  if (known != kUnset) return known;
+  OutputPrototype to = taken(number);
+  to.key = recall_.prototypes[number].key;
+  known = output_.addTaken(to);
+  cache_.emplace(to.key, known);
+  return known;
+}
+
+// The output's number of one with the attributes that are changed at present; kUnset: not yet.
+// What the scene before has with these attributes is taken as it was, so that no two prototypes of
+// one key are taken by different ways.
+uint32_t& Recaller::knownChanged(uint32_t number) {
+  uint32_t& known = changed_.try_emplace(number, kUnset).first->second;
+  if (known != kUnset) return known;
+  const ShareKey key = keyNow(number);
+  if (const uint32_t* const inOutput = cache_.find(key)) return known = *inOutput;
+  if (const uint32_t* const before = recall_.prototypeNumbers.find(key)) {
+    count(*before);
+    known = asItWas(*before);
+  }
+  return known;
+}
+
 // Prototypes are finished in the order in which deriving them would have done it: those that one
-// holds before itself. Shared calls nest as deep as rules do, so those at work are a list.
-uint32_t Recaller::prototype(uint32_t number) {
+// holds before itself.
+uint32_t Recaller::changed(uint32_t number) {
   struct Open {
     uint32_t number, next;
   };
   std::vector<Open> open;
-  if (!isTaken(number)) open.push_back({number, 0});
+  if (knownChanged(number) == kUnset) open.push_back({number, 0});
   while (!open.empty()) {
     Open& top = open.back();
     const Prototype& from = scene_.prototypes[top.number];
     if (top.next < from.instanceCount) {
       const uint32_t inner = scene_.instances[from.firstInstance + top.next++].prototype;
-      if (isTaken(inner))
-        ++counts_.shared;
-      else
+      if (knownChanged(inner) == kUnset)
         open.push_back({inner, 0});
+      else
+        ++counts_.shared;
       continue;
     }
-    finish(top.number);
+    finishChanged(top.number);
     open.pop_back();
   }
-  return known(number);
+  return knownChanged(number);
 }
 
 // Takes a prototype over whose instances have been.
-void Recaller::finish(uint32_t number) {
-  const Recall::PrototypeNotes& notes = recall_.prototypes[number];
-  const Prototype& from = scene_.prototypes[number];
-  output_.makeRoomFor(from);
-  OutputPrototype to;
-  to.range = from;
-  to.range.name = recall_.names[from.name];
+void Recaller::finishChanged(uint32_t number) {
+  OutputPrototype to = taken(number);
   to.key = keyNow(number);
-  to.attributes = notes.attributes == attributesBefore_ ? attributesNow_ : notes.attributes;
-  to.speaks = notes.speaks;
-  to.range.firstInstance = static_cast<uint32_t>(output_.instances.size());
+  if (to.attributes == attributesBefore_) to.attributes = attributesNow_;
+  to.attributesBefore = attributesBefore_;
+  to.attributesNow = attributesNow_;
+  const Prototype& from = scene_.prototypes[number];
+  to.range.firstInstance = static_cast<uint32_t>(output_.takenInstances.size());
   for (uint32_t i = 0; i < from.instanceCount; ++i) {
-    Instance& copy = output_.instances.emplace_back(scene_.instances[from.firstInstance + i]);
-    copy.prototype = known(copy.prototype);
+    const uint32_t inner = scene_.instances[from.firstInstance + i].prototype;
+    output_.takenInstances.push_back(knownChanged(inner));
   }
-  to.range.firstLeaf = static_cast<uint32_t>(output_.leaves.size());
-  for (uint32_t l = 0; l < from.leafCount; ++l) {
-    output_.leaves.push_back(leaf(scene_.leaves[from.firstLeaf + l]));
-  }
-  to.firstEvent = static_cast<uint32_t>(output_.events.size());
-  to.eventCount = notes.eventCount;
-  output_.events.insert(output_.events.end(), recall_.events.begin() + notes.firstEvent,
-                        recall_.events.begin() + notes.firstEvent + notes.eventCount);
-  output_.prototypes.push_back(to);
-  known(number) = static_cast<uint32_t>(output_.prototypes.size() - 1);
-  cache_.emplace(to.key, known(number));
+  countLeaves(scene_.leaves.data() + from.firstLeaf, from.leafCount);
+  const uint32_t known = output_.addTaken(to);
+  knownChanged(number) = known;
+  cache_.emplace(to.key, known);
 }
 
 }  // namespace gable

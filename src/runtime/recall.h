@@ -27,6 +27,7 @@ namespace gable {
 
 struct Environment;
 struct DeriveResult;
+class RoomPlan;
 
 /// A rule call's result, as ranges of the leaves, instances and events of the prototype of its
 /// initial shape.
@@ -34,8 +35,12 @@ struct RecallPart {
   ShareKey key;
   /// Of the scene; of the worker's output until the outputs are merged.
   uint32_t prototype = 0, worker = 0;
-  /// Until then: how many holes of the unit lie before it. There is none within.
-  uint32_t holes = 0;
+  /// Until then: how many holes of the unit lie before its begin and its end. None within is that
+  /// of a portion.
+  uint32_t holes = 0, holesEnd = 0;
+  /// Until then: it lies in the hole of that number, which was filled from the scene before, and
+  /// begin and end are places there.
+  bool taken = false;
   Output::Mark begin, end;
   /// Parts from this one up to the part itself lie inside of it.
   uint32_t firstInside = 0;
@@ -63,6 +68,9 @@ struct Recall {
   KeyNumbers prototypeNumbers;
   std::vector<std::shared_ptr<const RecallOperation>> operations;
   KeyNumbers operationNumbers;
+  /// Who has room, and what that depends on; null where no rule asks or that cannot be told.
+  std::shared_ptr<RoomPlan> rooms;
+  ShareKey roomsKey;
 
   /// By prototype of the scene: its key, and its events in `events`.
   struct PrototypeNotes {
@@ -103,7 +111,9 @@ struct RecallInput {
 RecallInput recallInput(const DeriveResult* before, const Program& program,
                         const Environment& environment);
 
-/// Takes results of the derivation before over into the output of one worker.
+/// Takes results of the derivation before over into the output of one worker. Their content stays
+/// in the scene before until merge() takes it from there; what is worked out here is what deriving
+/// them would have counted.
 class Recaller {
  public:
   Recaller(const RecallInput& input, Output& output, KeyNumbers& cache);
@@ -112,8 +122,8 @@ class Recaller {
   const RecallPart* part(const ShareKey& key) const;
   const Recall& recall() const { return recall_; }
   std::shared_ptr<const RecallOperation> operation(const ShareKey& key) const;
-  /// Adds the part's content to what lies open; `base` is where the open prototype began.
-  void take(const RecallPart& part, const Output::Mark& base);
+  /// The part's content is to lie where a hole is left for it.
+  void take(const RecallPart& part);
   /// Finishes the prototype with that key, and those that it holds, in the output and the cache.
   /// False when it is not known.
   bool takePrototype(const ShareKey& key, uint32_t& number);
@@ -129,24 +139,26 @@ class Recaller {
   Counts counts();
 
  private:
-  bool isTaken(uint32_t number);
-  uint32_t& known(uint32_t number);
   ShareKey keyNow(uint32_t number) const;
-  uint32_t prototype(uint32_t number);
-  void finish(uint32_t number);
-  Leaf leaf(const Leaf& from);
-  Instance instance(const Instance& from);
+  OutputPrototype taken(uint32_t number) const;
+  uint32_t asItWas(uint32_t number);
+  uint32_t& knownChanged(uint32_t number);
+  uint32_t changed(uint32_t number);
+  void finishChanged(uint32_t number);
+  void count(uint32_t number);
+  void countLeaves(const Leaf* leaves, uint32_t count);
 
   const RecallInput& input_;
   const Recall& recall_;
   const Scene& scene_;
   Output& output_;
   KeyNumbers& cache_;
-  /// By number in the scene before: that in the output.
-  std::vector<uint32_t> prototypes_, meshes_, materials_;
+  /// By number in the scene before: that in the output, and whether it has been counted.
+  std::vector<uint32_t> prototypes_;
+  std::vector<bool> counted_;
   /// The set of attributes that leaves get in the place of another; the same while none is changed.
   uint32_t attributesBefore_ = 0, attributesNow_ = 0;
-  /// As `prototypes_`, of those with the set that is changed at present.
+  /// As `prototypes_`, of all with the set that is changed at present.
   std::unordered_map<uint32_t, uint32_t> changed_;
   Counts counts_;
 };

@@ -8,8 +8,10 @@
 #include "scene/sound.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
+#include "base/parallel.h"
 #include "scene/flatten.h"
 
 namespace gable {
@@ -100,11 +102,26 @@ uint64_t brokenNumbers(const Material& m) {
 
 class Mender {
  public:
-  explicit Mender(const Scene& scene) : scene_(scene), counts_(prototypeLeafCounts(scene)) {
-    for (const MeshRef& m : scene.meshes) meshes_.push_back(stateOf(*m));
+  Mender(const Scene& scene, unsigned jobs) : scene_(scene), meshes_(scene.meshes.size()) {
+    parallelFor(
+        meshes_.size(), jobs, [&](size_t m, unsigned) { meshes_[m] = stateOf(*scene.meshes[m]); },
+        kMeshesATask);
+  }
+
+  // Most scenes are sound, which takes no more than a look at each thing by whoever has time.
+  bool isSoundScene(unsigned jobs) const {
+    const auto isSoundMesh = [](const MeshState& m) { return m.broken == 0; };
+    const auto isSoundMaterial = [](const Material& m) { return brokenNumbers(m) == 0; };
+    const auto stands = [](const auto& root) { return isSound(root.instance.frame); };
+    return std::ranges::all_of(meshes_, isSoundMesh) &&
+           std::ranges::all_of(scene_.materials, isSoundMaterial) &&
+           std::ranges::all_of(scene_.roots, stands) &&
+           allOf(scene_.instances, jobs, [](const Instance& i) { return isSound(i.frame); }) &&
+           allOf(scene_.leaves, jobs, [&](const Leaf& l) { return isSoundLeaf(l); });
   }
 
   SoundScene mend() {
+    counts_ = prototypeLeafCounts(scene_);
     measure();
     if (!broken_) return {};
     result_.scene = scene_;
@@ -120,6 +137,19 @@ class Mender {
   }
 
  private:
+  static constexpr size_t kMeshesATask = 256, kThingsATask = 1 << 13;
+
+  template <class T, class Test>
+  static bool allOf(const std::vector<T>& all, unsigned jobs, Test&& test) {
+    std::atomic<bool> holds{true};
+    parallelFor((all.size() + kThingsATask - 1) / kThingsATask, jobs, [&](size_t task, unsigned) {
+      const auto begin = all.begin() + static_cast<ptrdiff_t>(task * kThingsATask);
+      const size_t count = std::min(kThingsATask, all.size() - task * kThingsATask);
+      if (!std::all_of(begin, begin + static_cast<ptrdiff_t>(count), test)) holds = false;
+    });
+    return holds;
+  }
+
   bool isSoundLeaf(const Leaf& l) const {
     const MeshState& m = meshes_[l.mesh];
     return m.sound && isSound(l.frame) && fits(l.scale) && fits(scaled(m.most, l.scale));
@@ -223,7 +253,7 @@ class Mender {
   }
 
   const Scene& scene_;
-  const std::vector<uint64_t> counts_;
+  std::vector<uint64_t> counts_;
   std::vector<MeshState> meshes_;
   /// By prototype, where any instance is broken.
   std::vector<bool> twins_;
@@ -233,6 +263,9 @@ class Mender {
 
 }  // namespace
 
-SoundScene soundOf(const Scene& scene) { return Mender(scene).mend(); }
+SoundScene soundOf(const Scene& scene, unsigned jobs) {
+  Mender mender(scene, jobs);
+  return mender.isSoundScene(jobs) ? SoundScene{} : mender.mend();
+}
 
 }  // namespace gable

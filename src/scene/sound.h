@@ -35,7 +35,7 @@ struct SoundScene {
   uint64_t valuesReplaced = 0;
 };
 
-/// Linear in what the scene stores.
-SoundScene soundOf(const Scene& scene);
+/// Linear in what the scene stores. `jobs` as in parallelFor(); the result is that of one.
+SoundScene soundOf(const Scene& scene, unsigned jobs = 1);
 
 }  // namespace gable

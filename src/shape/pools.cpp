@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
 #include <mutex>
 #include <optional>
@@ -187,9 +188,51 @@ struct SlotList {
 };
 }  // namespace
 
+namespace {
+
+// What with() gave of late: each shape that an import is called on gets all of the import's
+// attributes, one after the other, and most of them what the shape before got.
+class KnownSets {
+ public:
+  std::optional<uint32_t> find(uint32_t set, uint32_t key, const Value& value) {
+    const size_t place = placeOf(set, key, value);
+    const std::lock_guard lock(mutex_);
+    const Known& k = known_[place];
+    const bool same =
+        k.set == set && k.key == key && k.value.type == value.type && k.value.unit == value.unit &&
+        k.value.id == value.id &&
+        std::bit_cast<uint64_t>(k.value.number) == std::bit_cast<uint64_t>(value.number);
+    if (k.result == 0 || !same) return {};
+    return k.result;
+  }
+  void keep(uint32_t set, uint32_t key, const Value& value, uint32_t result) {
+    const size_t place = placeOf(set, key, value);
+    const std::lock_guard lock(mutex_);
+    known_[place] = {set, key, result, value};
+  }
+
+ private:
+  struct Known {
+    /// 0 for the result, which has an entry at least: nothing is known here.
+    uint32_t set = 0, key = 0, result = 0;
+    Value value;
+  };
+  static size_t placeOf(uint32_t set, uint32_t key, const Value& value) {
+    return hashCombine(uint64_t{set} << 32 | key, value.hash()) % kKept;
+  }
+
+  // Some hundred prefixes of the sets of some dozen imports.
+  static constexpr size_t kKept = 1 << 13;
+  std::mutex mutex_;
+  std::vector<Known> known_{kKept};
+};
+
+}  // namespace
+
 struct AttributePool::Impl {
   Interned<std::vector<Entry>> sets;
   Interned<SlotList> lists;
+  KnownSets known;
 };
 
 namespace {
@@ -218,6 +261,7 @@ const Value* AttributePool::find(uint32_t set, uint32_t key) const {
 }
 
 uint32_t AttributePool::with(uint32_t set, uint32_t key, const Value& value) {
+  if (const auto known = impl_->known.find(set, key, value)) return *known;
   std::vector<Entry> all = entries(set);
   const auto at = std::lower_bound(all.begin(), all.end(), key,
                                    [](const Entry& e, uint32_t k) { return e.key < k; });
@@ -225,7 +269,9 @@ uint32_t AttributePool::with(uint32_t set, uint32_t key, const Value& value) {
     at->value = value;
   else
     all.insert(at, {key, value});
-  return impl_->sets.intern(hashOf(all), all);
+  const uint32_t result = impl_->sets.intern(hashOf(all), all);
+  impl_->known.keep(set, key, value, result);
+  return result;
 }
 
 const std::vector<MaterialId>& AttributePool::materials(uint32_t list) const {

@@ -153,6 +153,94 @@ TEST(Recall, theSameIsKeptEachTime) {
   for (const std::string& each : {rules, std::string(kBlocks)}) EXPECT_EQ(kept(each), kept(each));
 }
 
+// Houses and posts ask for room; what stands on a lot that has room asks for nothing.
+const char kRoomy[] = R"(
+attr pitch = 30
+attr spacing = 6
+Lot --> split(x) { ~20 : Block }*
+Block -->
+  [ split(z) { ~spacing : Post }* ]
+  s('0.6, '1, '0.6) center(xz) ifFree("house", 1) { House | otherwise : NIL }
+Post --> s(1, 1, 1) center(xz) ifFree("post", 0.5) { Pole | otherwise : NIL }
+Pole --> label("house") s(1, 3, 1) primitiveCube() Iron.
+House --> extrude(6 + rand(3)) comp(f) { side : Wall | top : Roof }
+Wall --> split(y) { ~1 : split(x) { ~rand(0.5, 1) : Bay }* }*
+Bay --> s('1, '1, 0.1) primitiveCube() Pane.
+Roof --> roofHip(pitch) Tiles.
+)";
+
+TEST(Recall, whoHasRoomIsFoundOutAnewOnlyWhereAnEditChangesThat) {
+  const std::string rules = kRoomy;
+  OneJob place(Shapes::lot(60, 30));
+  const auto rooms = [](const Model& model) { return model.impl().result.recall->rooms; };
+  const std::shared_ptr<RoomPlan> first = rooms(place.next(rules));
+  ASSERT_TRUE(first);
+  std::shared_ptr<RoomPlan> before = first;
+  struct Edit {
+    const char *from, *to;
+    bool asksAnew;
+  };
+  for (const Edit& edit : {Edit{"pitch = 30", "pitch = 40", false},
+                           {"6 + rand", "7 + rand", false},
+                           {"spacing = 6", "spacing = 5", true},
+                           {"s(1, 1, 1)", "s(1.5, 1, 1)", true},
+                           {"\"house\", 1", "\"house\", 2", true},
+                           {"Lot -->", "// A line that moves the others\nLot -->", true}}) {
+    const std::string edited = replaced(rules, edit.from, edit.to);
+    const Model model = place.next(edited);
+    EXPECT_EQ(shown(model), shown(place.fresh(edited))) << edit.to;
+    EXPECT_EQ(rooms(model) != before, edit.asksAnew) << edit.to;
+    const Model back = place.next(rules);
+    EXPECT_EQ(shown(back), shown(place.fresh(rules))) << edit.to;
+    EXPECT_EQ(rooms(back) != rooms(model), edit.asksAnew) << edit.to;
+    before = rooms(back);
+  }
+  // Values that are given count where somebody who asks reads them, and so do limits.
+  place.settings.attributes = {{"pitch", "20"}};
+  EXPECT_EQ(rooms(place.next(rules)), before);
+  place.settings.attributes = {{"spacing", "4"}};
+  const Model other = place.next(rules);
+  EXPECT_EQ(shown(other), shown(place.fresh(rules)));
+  EXPECT_NE(rooms(other), before);
+  before = rooms(other);
+  place.settings.limits.width = 20'000;
+  EXPECT_NE(rooms(place.next(rules)), before);
+}
+
+// Parts beside, around and within each other, one edit after the other: each takes over what the
+// one before had taken over already.
+TEST(Recall, whatWasTakenOverIsTakenOverAgain) {
+  for (const int jobs : {1, 3}) {
+    Edited place(Shapes::lot(80, 20));
+    place.settings.jobs = jobs;
+    place.next(kBlocks);
+    for (const char* number : {"21", "22", "23", "20"}) {
+      const std::string edited = replaced(kBlocks, "20 + rand", std::string(number) + " + rand");
+      const Model model = place.next(edited);
+      EXPECT_EQ(shown(model), shown(place.fresh(edited))) << number << " " << jobs;
+      EXPECT_GT(recalled(model), 0u);
+      const std::string tiles = replaced(edited, "LeftRoof.", "color(\"#ff0000\") LeftRoof.");
+      EXPECT_EQ(shown(place.next(tiles)), shown(place.fresh(tiles))) << number << " " << jobs;
+    }
+  }
+}
+
+// Reports lie between what was taken over and what was not.
+TEST(Recall, reportsKeepTheirOrder) {
+  const std::string rules = replaced(
+      replaced(kBlocks, "Facade -->", "Facade --> report(\"facade\", scope.sx) print(scope.sx)"),
+      "Tile -->", "Tile --> report(\"tile\", scope.sx)");
+  Edited place(Shapes::lot(80, 20));
+  place.next(rules);
+  for (const char* number : {"21", "22"}) {
+    const std::string edited = replaced(rules, "20 + rand", std::string(number) + " + rand");
+    const Model model = place.next(edited);
+    EXPECT_EQ(shown(model), shown(place.fresh(edited)));
+    EXPECT_EQ(model.prints(), place.fresh(edited).prints());
+    EXPECT_GT(recalled(model), 0u);
+  }
+}
+
 TEST(Recall, aRuleThatAllReachChangesAll) {
   OneJob place(Shapes::lot(80, 20));
   place.next(kBlocks);
