@@ -28,11 +28,11 @@ constexpr uint32_t kPixelDimension = 0, kLensDimension = 0x40000000;
 constexpr uint32_t kTile = 16;
 /// With Stage::ambient: whole paths of a pixel at most, and then brief ones up to all its samples.
 constexpr uint32_t kMostWhole = 4;
-/// Else: brief paths a whole one at most. And the error that nobody sees, on a scale from black to
-/// white, and the one that few see. Even samples, shared with neighbours, err less than half as
-/// much as their spread says.
+/// Else: brief paths a whole one at most. And the errors that are aimed at, on a scale from black
+/// to white, by a pixel's own samples. Even samples, shared with neighbours, err a third as much:
+/// the first is seen by nobody, the second by few.
 constexpr uint32_t kMostBrief = 2;
-constexpr float kSeenError = 0.014f, kSeenErrorDirect = 0.02f;
+constexpr float kSeenError = 0.014f, kSeenErrorDirect = 0.045f;
 
 /// The Blackman-Harris window, 1.5 pixels to each side: what a sample weighs in its pixel and in
 /// the two neighbours along one axis.
