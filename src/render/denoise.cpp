@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// The edge-avoiding a-trous wavelet of Dammertz et al. 2010 with the variance-driven brightness
-// weight of Schied et al. 2017: passes of a 5 x 5 spline kernel with growing gaps over the light
-// divided by albedo; the variance shrinks along with it, so later passes stop at what is structure
-// and not noise. As in Rousselle et al. 2012, the difference that noise alone makes counts as none.
+// A regression of first order, as Moon et al. 2014, Adaptive Rendering Based on Weighted Local
+// Regression, and Bitterli et al. 2016, Nonlinearly Weighted First-order Regression for Denoising
+// Monte Carlo Renderings: about each pixel the light over albedo is fitted by a plane over normal,
+// distance and place, and the pixel gets the plane's value. Where an edge runs through a pixel, its
+// light, normal and distance are mixed alike, so the fit keeps the edge. Neighbours count by how
+// far they differ in brightness; as in Rousselle et al. 2012, what noise alone makes of a
+// difference counts as none. How steep planes are on surfaces is known beforehand, and counts the
+// more the noisier the light is: ridge regression.
 //
-// All is kept as planes of single numbers, and a pass goes through the neighbours of a whole row
-// one place after the other, so that compilers make vectors of the inner loops.
+// A block of pixels is fitted at once, each sum an array over the block, so that compilers make
+// vectors of the inner loops.
 
 #include "render/denoise.h"
+
+#include <array>
 
 #include "base/parallel.h"
 
@@ -17,22 +23,35 @@ namespace gable::rt {
 
 namespace {
 
-/// The sun's light has noise in penumbras only: small, and next to edges to be kept.
-constexpr int kSunPasses = 1, kIndirectPasses = 4, kSkyPasses = 2;
-constexpr float kKernel[3] = {3.0f / 8, 1.0f / 4, 1.0f / 16};
-/// Least albedo to divide by.
-constexpr float kLeastAlbedo = 0.02f;
+/// Pixels to each side that a fit looks at, and the gaps between them by pass: the first takes what
+/// jitters from pixel to pixel, the second the blotches that are left of it on plain walls.
+constexpr int kReach = 3, kGaps[] = {1, 3};
+/// The same of light that comes straight from the sky.
+constexpr int kSkyReach = 2;
+/// The samples of a pixel count in its neighbours, too, so its mean varies less than its own
+/// samples say: by this.
+constexpr float kShared = 0.3f;
 /// Brightness differences count in standard deviations times this.
-constexpr float kSunBrightness = 1.0f, kIndirectBrightness = 3.0f;
-/// Weight of a normal that is turned by 20 degrees: a half.
-constexpr float kSharpness = 10;
+constexpr float kBrightness = 1.2f;
+/// The least albedo that tells normals and distances.
+constexpr float kLeastTone = 1e-4f;
+/// Distances count by this share of themselves, and beyond so many of it no more.
+constexpr float kDepth = 0.05f, kMostDepths = 3;
 
+/// What is fitted over: the normal, the distance, the place across and down, and the constant. It
+/// comes last, where its own factor is known without going back through the others.
+enum Feature : size_t { kNormalX, kNormalY, kNormalZ, kDistance, kAcross, kDown, kConstant };
+constexpr size_t kFeatures = kConstant + 1, kProducts = kFeatures * (kFeatures + 1) / 2;
+/// One over the square of how much the light changes with each, in its own size.
+constexpr std::array<float, kFeatures> kStiffness{1.1f, 1.1f, 1.1f, 0.28f, 0.62f, 0.62f, 0};
+/// Keeps features that are the same everywhere from dividing by 0.
+constexpr float kLeastStiffness = 1e-5f;
+
+constexpr size_t kBlock = 32;
+using Lanes = std::array<float, kBlock>;
 using Plane = std::vector<float>;
 
-Vec3f divisor(const Vec3f& albedo) {
-  return {std::max(kLeastAlbedo, albedo.x), std::max(kLeastAlbedo, albedo.y),
-          std::max(kLeastAlbedo, albedo.z)};
-}
+constexpr size_t product(size_t row, size_t column) { return row * (row + 1) / 2 + column; }
 
 /// About exp(-t), from 1 down to almost 0 for t of 0 and more. Numbers so small that processors are
 /// slow at them are kept out.
@@ -41,31 +60,47 @@ inline float falling(float t) {
   return 1 / (u4 * u4);
 }
 
-/// What guides the smoothing, by pixel.
+/// Light, and the variance of its luminance, as planes of single numbers.
+struct Planes {
+  Plane r, g, b, luminance, noise;
+
+  explicit Planes(size_t pixels)
+      : r(pixels), g(pixels), b(pixels), luminance(pixels), noise(pixels) {}
+
+  void set(size_t i, const Vec3f& light, float variance) {
+    r[i] = light.x;
+    g[i] = light.y;
+    b[i] = light.z;
+    luminance[i] = rt::luminance(light);
+    noise[i] = variance;
+  }
+};
+
+/// The film in planes.
 struct Guide {
   int width = 0, height = 0;
-  /// Distance, its change from pixel to pixel across and down, and how far it may be off.
-  Plane distance, across, down, slack;
-  /// Normals as long as a pixel's own samples agree on them, and that length: where they do not,
-  /// the mean says little.
-  Plane nx, ny, nz, agreement;
+  Planes light;
+  Plane nx, ny, nz, distance, known;
 
   explicit Guide(const Film& film)
-      : width(static_cast<int>(film.width)), height(static_cast<int>(film.height)) {
+      : width(static_cast<int>(film.width)),
+        height(static_cast<int>(film.height)),
+        light(film.direct.size()) {
     const size_t pixels = film.direct.size();
-    for (Plane* p : {&distance, &across, &down, &slack, &nx, &ny, &nz, &agreement}) {
-      p->resize(pixels);
-    }
+    for (Plane* p : {&nx, &ny, &nz, &distance, &known}) p->resize(pixels);
     for (size_t i = 0; i < pixels; ++i) {
-      // Nothing is near what is nowhere.
-      distance[i] = film.distance[i] > 0 ? film.distance[i] : kNowhere;
-      slack[i] = 0.004f * film.distance[i] + 1e-3f + 2 * film.spread[i];
       nx[i] = film.normal[i].x;
       ny[i] = film.normal[i].y;
       nz[i] = film.normal[i].z;
-      agreement[i] = length(film.normal[i]);
+      distance[i] = film.distance[i];
+      known[i] = luminance(film.albedo[i]) > kLeastTone ? 1.0f : 0.0f;
     }
-    findSlopes(film);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const size_t i = index(x, y);
+        light.set(i, film.irradiance[i], noiseAbout(film, x, y));
+      }
+    }
   }
 
   size_t index(int x, int y) const {
@@ -73,193 +108,212 @@ struct Guide {
   }
 
  private:
-  static constexpr float kNowhere = 1e18f;
-
-  /// The smaller of the one-sided differences: at an outline, that of the pixel's own side.
-  void findSlopes(const Film& film) {
-    const auto least = [](float a, float b) { return std::abs(a) < std::abs(b) ? a : b; };
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        const float d = film.distance[index(x, y)];
-        const float l = d - film.distance[index(std::max(0, x - 1), y)];
-        const float r = film.distance[index(std::min(width - 1, x + 1), y)] - d;
-        const float t = d - film.distance[index(x, std::max(0, y - 1))];
-        const float b = film.distance[index(x, std::min(height - 1, y + 1))] - d;
-        across[index(x, y)] = x == 0 ? r : x == width - 1 ? l : least(l, r);
-        down[index(x, y)] = y == 0 ? b : y == height - 1 ? t : least(t, b);
+  /// The variance about a pixel: single estimates of few samples are unreliable.
+  float noiseAbout(const Film& film, int x, int y) const {
+    float sum = 0;
+    for (int j = -1; j <= 1; ++j) {
+      const int v = std::clamp(y + j, 0, height - 1);
+      for (int i = -1; i <= 1; ++i) {
+        const int u = std::clamp(x + i, 0, width - 1);
+        sum +=
+            static_cast<float>((2 - std::abs(i)) * (2 - std::abs(j))) * film.variance[index(u, v)];
       }
     }
+    return sum / 16;
   }
 };
 
-/// Light over albedo, with the variance of its luminance.
-struct Layer {
-  Plane r, g, b, variance;
-
-  explicit Layer(size_t pixels) : r(pixels), g(pixels), b(pixels), variance(pixels) {}
-};
-
-class Smoother {
+/// The fits of a block of pixels of a row.
+class Fits {
  public:
-  Smoother(const Guide& guide, Layer& layer, float brightness, unsigned threads)
+  Fits(const Guide& guide, int reach, int gap, int x, int y)
       : guide_(guide),
-        layer_(layer),
-        brightness_(brightness),
-        threads_(threads),
-        next_(layer.r.size()),
-        luminance_(layer.r.size()),
-        noise_(layer.r.size()) {}
+        reach_(reach),
+        x_(x),
+        y_(y),
+        count_(std::min(static_cast<int>(kBlock), guide.width - x)) {
+    features_[kConstant].fill(1);
+    for (int j = -reach; j <= reach; ++j) {
+      if (y + j * gap < 0 || y + j * gap >= guide.height) continue;
+      for (int i = -reach; i <= reach; ++i) add(i * gap, j * gap, share(i), share(j));
+    }
+    stiffen();
+    factor();
+    solve();
+  }
 
-  void pass(int gap) {
-    eachRow([&](int y) { prepareRow(y); });
-    eachRow([&](int y) { smoothRow(y, gap); });
-    std::swap(layer_, next_);
+  int count() const { return count_; }
+  /// What the fit says of the block's pixel `i`; nowhere darker than black.
+  Vec3f value(size_t i) const {
+    const float last = inverse_[kConstant][i];
+    const auto of = [&](size_t channel) {
+      return std::max(0.0f, sums_[kConstant][channel][i] * last);
+    };
+    return {of(0), of(1), of(2)};
+  }
+  /// The variance of its luminance.
+  float noise(size_t i) const {
+    const float weight = weightSum_[i];
+    return weight > 0
+               ? noises_[i] / weight * std::min(1.0f, kShared * squared(inverse_[kConstant][i]))
+               : 0;
   }
 
  private:
-  template <class Row>
-  void eachRow(Row&& row) {
-    parallelFor(
-        static_cast<size_t>(guide_.height), threads_,
-        [&](size_t y, unsigned) { row(static_cast<int>(y)); }, 8);
-  }
+  static float squared(float v) { return v * v; }
+  float share(int steps) const { return static_cast<float>(steps) / static_cast<float>(reach_); }
 
-  /// Luminance, and the variance about a pixel: single estimates of few samples are unreliable.
-  void prepareRow(int y) {
-    const int w = guide_.width;
-    const size_t row = guide_.index(0, y);
-    const float* const up = &layer_.variance[guide_.index(0, std::max(0, y - 1))];
-    const float* const at = &layer_.variance[row];
-    const float* const low = &layer_.variance[guide_.index(0, std::min(guide_.height - 1, y + 1))];
-    Plane column(static_cast<size_t>(w));
-    for (int x = 0; x < w; ++x) {
-      column[static_cast<size_t>(x)] = 0.25f * (up[x] + low[x]) + 0.5f * at[x];
-    }
-    for (int x = 0; x < w; ++x) {
-      const size_t i = row + static_cast<size_t>(x);
-      const float left = column[static_cast<size_t>(std::max(0, x - 1))];
-      const float right = column[static_cast<size_t>(std::min(w - 1, x + 1))];
-      noise_[i] = 0.25f * (left + right) + 0.5f * column[static_cast<size_t>(x)];
-      luminance_[i] = luminance(Vec3f{layer_.r[i], layer_.g[i], layer_.b[i]});
-    }
-  }
-
-  /// Sums of a row.
-  struct Sums {
-    Plane r, g, b, variance, weight;
-    explicit Sums(size_t n) : r(n), g(n), b(n), variance(n), weight(n) {}
-  };
-
-  void smoothRow(int y, int gap) {
-    Sums sums(static_cast<size_t>(guide_.width));
-    for (int j = -2; j <= 2; ++j) {
-      if (y + j * gap < 0 || y + j * gap >= guide_.height) continue;
-      for (int i = -2; i <= 2; ++i) {
-        addPlace(y, i * gap, j * gap, kKernel[std::abs(i)] * kKernel[std::abs(j)], sums);
+  /// Adds the neighbours that lie `dx`, `dy` from the pixels, `across` and `down` of the reach.
+  void add(int dx, int dy, float across, float down) {
+    const int from = std::max(0, -dx - x_), to = std::min(count_, guide_.width - dx - x_);
+    if (from >= to) return;
+    describe(dx, dy, across, down, from, to);
+    const size_t begin = static_cast<size_t>(from), end = static_cast<size_t>(to);
+    const size_t q = guide_.index(x_ + dx + from, y_ + dy) - begin;
+    for (size_t f = 0; f < kFeatures; ++f) {
+      Lanes weighed;
+      for (size_t i = begin; i < end; ++i) weighed[i] = weights_[i] * features_[f][i];
+      for (size_t e = 0; e <= f; ++e) {
+        Lanes& sum = products_[product(f, e)];
+        const Lanes& other = features_[e];
+        for (size_t i = begin; i < end; ++i) sum[i] += weighed[i] * other[i];
+      }
+      const Plane* const channels[3] = {&guide_.light.r, &guide_.light.g, &guide_.light.b};
+      for (size_t c = 0; c < 3; ++c) {
+        const float* const light = channels[c]->data() + q;
+        Lanes& sum = sums_[f][c];
+        for (size_t i = begin; i < end; ++i) sum[i] += weighed[i] * light[i];
       }
     }
-    const size_t row = guide_.index(0, y);
-    for (size_t x = 0; x < sums.r.size(); ++x) {
-      const float share = 1 / sums.weight[x];
-      next_.r[row + x] = sums.r[x] * share;
-      next_.g[row + x] = sums.g[x] * share;
-      next_.b[row + x] = sums.b[x] * share;
-      next_.variance[row + x] = sums.variance[x] * share * share;
+    const float* const noise = guide_.light.noise.data() + q;
+    for (size_t i = begin; i < end; ++i) noises_[i] += weights_[i] * noise[i];
+  }
+
+  /// Weights and features of neighbours, as their pixels see them.
+  void describe(int dx, int dy, float across, float down, int from, int to) {
+    const size_t begin = static_cast<size_t>(from), end = static_cast<size_t>(to);
+    const size_t p = guide_.index(x_ + from, y_) - begin;
+    const size_t q = guide_.index(x_ + dx + from, y_ + dy) - begin;
+    const auto here = [p](const Plane& v) { return v.data() + p; };
+    const auto there = [q](const Plane& v) { return v.data() + q; };
+    const float kernel = falling(across * across + down * down);
+    const float scale = 1 / (kBrightness * kBrightness);
+    const float *const l = here(guide_.light.luminance), *const lq = there(guide_.light.luminance);
+    const float *const v = here(guide_.light.noise), *const vq = there(guide_.light.noise);
+    const float *const d = here(guide_.distance), *const dq = there(guide_.distance);
+    const float* const known = there(guide_.known);
+    for (size_t i = begin; i < end; ++i) {
+      const float off = lq[i] - l[i], noise = v[i] + vq[i] + 1e-9f;
+      const float unlike = std::max(0.0f, off * off / noise - 1) * scale;
+      weights_[i] = known[i] * kernel * falling(unlike);
+      const float step = (dq[i] - d[i]) / (kDepth * d[i] + 1e-6f);
+      features_[kDistance][i] = std::max(-kMostDepths, std::min(kMostDepths, step));
+      features_[kAcross][i] = across;
+      features_[kDown][i] = down;
+    }
+    const Plane* const normals[3] = {&guide_.nx, &guide_.ny, &guide_.nz};
+    for (size_t k = 0; k < 3; ++k) {
+      const float *const n = here(*normals[k]), *const nq = there(*normals[k]);
+      for (size_t i = begin; i < end; ++i) features_[kNormalX + k][i] = nq[i] - n[i];
     }
   }
 
-  /// Adds the neighbours that lie `dx`, `dy` from the pixels of a row.
-  void addPlace(int y, int dx, int dy, float kernel, Sums& sums) const {
-    const int from = std::max(0, -dx), to = std::min(guide_.width, guide_.width - dx);
-    const float fx = static_cast<float>(dx), fy = static_cast<float>(dy);
-    const size_t p = guide_.index(0, y);
-    const size_t q = guide_.index(from + dx, y + dy);
-    const auto here = [p, from](const Plane& v) { return v.data() + p + from; };
-    const auto there = [q](const Plane& v) { return v.data() + q; };
-    const Guide& u = guide_;
-    const float *const d = here(u.distance), *const dq = there(u.distance);
-    const float *const ax = here(u.across), *const ay = here(u.down), *const sl = here(u.slack);
-    const float *const nx = here(u.nx), *const ny = here(u.ny), *const nz = here(u.nz);
-    const float *const mx = there(u.nx), *const my = there(u.ny), *const mz = there(u.nz);
-    const float *const ag = here(u.agreement), *const aq = there(u.agreement);
-    const float *const l = here(luminance_), *const lq = there(luminance_);
-    const float *const v = here(noise_), *const vq = there(noise_);
-    const float *const r = there(layer_.r), *const g = there(layer_.g), *const b = there(layer_.b);
-    const float* const variance = there(layer_.variance);
-    float *const sr = sums.r.data() + from, *const sg = sums.g.data() + from;
-    float *const sb = sums.b.data() + from, *const sv = sums.variance.data() + from;
-    float* const sw = sums.weight.data() + from;
-    const float scale = 1 / (brightness_ * brightness_);
-    // The sums are no part of what is read; g++ would check that for too many pairs and give up.
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC ivdep
-#endif
-    for (int x = 0; x < to - from; ++x) {
-      const float step = ax[x] * fx + ay[x] * fy;
-      const float slack = sl[x] + 0.5f * (std::abs(ax[x] * fx) + std::abs(ay[x] * fy));
-      const float apart = std::abs(dq[x] - d[x] - step) / slack;
-      const float agreed = ag[x] * aq[x];
-      const float along = nx[x] * mx[x] + ny[x] * my[x] + nz[x] * mz[x];
-      const float bend = kSharpness * agreed * std::max(0.0f, agreed - along);
-      const float off = lq[x] - l[x], noise = v[x] + vq[x] + 1e-9f;
-      const float unlike = std::max(0.0f, off * off / noise - 1) * scale;
-      const float w = kernel * falling(apart + bend + unlike);
-      sr[x] += r[x] * w;
-      sg[x] += g[x] * w;
-      sb[x] += b[x] * w;
-      sv[x] += variance[x] * w * w;
-      sw[x] += w;
+  /// Adds what is known of the planes beforehand, by how noisy the light is.
+  void stiffen() {
+    weightSum_ = products_[product(kConstant, kConstant)];
+    const Lanes& weight = weightSum_;
+    const std::array<Lanes, 3>& light = sums_[kConstant];
+    for (size_t i = 0; i < kBlock; ++i) {
+      const float mean = luminance(Vec3f{light[0][i], light[1][i], light[2][i]});
+      const float noise = noises_[i] * weight[i] / (mean * mean + 1e-12f);
+      for (size_t f = 0; f < kFeatures; ++f) {
+        products_[product(f, f)][i] += noise * kStiffness[f] + kLeastStiffness * weight[i] + 1e-12f;
+      }
+    }
+  }
+
+  /// Cholesky's factors, in place.
+  void factor() {
+    for (size_t c = 0; c < kFeatures; ++c) {
+      for (size_t r = c; r < kFeatures; ++r) {
+        Lanes& sum = products_[product(r, c)];
+        for (size_t k = 0; k < c; ++k) {
+          const Lanes &a = products_[product(r, k)], &b = products_[product(c, k)];
+          for (size_t i = 0; i < kBlock; ++i) sum[i] -= a[i] * b[i];
+        }
+      }
+      const Lanes &pivot = products_[product(c, c)], &weight = weightSum_;
+      for (size_t i = 0; i < kBlock; ++i) {
+        inverse_[c][i] = 1 / std::sqrt(std::max(pivot[i], 1e-7f * weight[i] + 1e-20f));
+      }
+      for (size_t r = c + 1; r < kFeatures; ++r) {
+        Lanes& sum = products_[product(r, c)];
+        for (size_t i = 0; i < kBlock; ++i) sum[i] *= inverse_[c][i];
+      }
+    }
+  }
+
+  void solve() {
+    for (size_t r = 0; r < kFeatures; ++r) {
+      for (size_t c = 0; c < 3; ++c) {
+        Lanes& sum = sums_[r][c];
+        for (size_t k = 0; k < r; ++k) {
+          const Lanes &a = products_[product(r, k)], &known = sums_[k][c];
+          for (size_t i = 0; i < kBlock; ++i) sum[i] -= a[i] * known[i];
+        }
+        for (size_t i = 0; i < kBlock; ++i) sum[i] *= inverse_[r][i];
+      }
     }
   }
 
   const Guide& guide_;
-  Layer& layer_;
-  float brightness_;
-  unsigned threads_;
-  Layer next_;
-  Plane luminance_, noise_;
+  int reach_, x_, y_, count_;
+  Lanes weights_{}, weightSum_{}, noises_{};
+  std::array<Lanes, kFeatures> features_{}, inverse_{};
+  /// Of features with each other, the lower half, and with the light of each channel.
+  std::array<Lanes, kProducts> products_{};
+  std::array<std::array<Lanes, 3>, kFeatures> sums_{};
 };
 
-Layer overAlbedo(const Film& film, const FilmLayer& from) {
-  Layer layer(from.light.size());
-  for (size_t i = 0; i < from.light.size(); ++i) {
-    const Vec3f d = divisor(film.albedo[i]);
-    layer.r[i] = from.light[i].x / d.x;
-    layer.g[i] = from.light[i].y / d.y;
-    layer.b[i] = from.light[i].z / d.z;
-  }
-  layer.variance = from.variance;
-  return layer;
+/// A pass over all pixels.
+void smooth(Guide& guide, int reach, int gap, unsigned threads) {
+  Planes next = guide.light;
+  parallelFor(
+      static_cast<size_t>(guide.height), threads,
+      [&](size_t row, unsigned) {
+        const int y = static_cast<int>(row);
+        for (int x = 0; x < guide.width; x += static_cast<int>(kBlock)) {
+          const Fits fits(guide, reach, gap, x, y);
+          const size_t first = guide.index(x, y);
+          for (size_t k = 0; k < static_cast<size_t>(fits.count()); ++k) {
+            if (guide.known[first + k] > 0) next.set(first + k, fits.value(k), fits.noise(k));
+          }
+        }
+      },
+      8);
+  guide.light = std::move(next);
 }
 
 }  // namespace
 
 std::vector<Vec3f> resolve(const Film& film, Smoothing smoothing, unsigned threads) {
-  const size_t pixels = film.direct.size();
   std::vector<Vec3f> picture = film.direct;
-  const auto addPlain = [&](const FilmLayer& layer) {
-    for (size_t i = 0; i < pixels; ++i) picture[i] += layer.light[i];
+  for (size_t i = 0; i < picture.size(); ++i) picture[i] += film.sun[i];
+  const auto add = [&](size_t i, const Vec3f& irradiance) {
+    picture[i] += irradiance * albedoDivisor(film.albedo[i]);
   };
   if (smoothing == Smoothing::None) {
-    addPlain(film.sun);
-    addPlain(film.indirect);
+    for (size_t i = 0; i < picture.size(); ++i) add(i, film.irradiance[i]);
     return picture;
   }
-  const Guide guide(film);
-  const auto add = [&](const FilmLayer& from, int passes, float brightness) {
-    Layer layer = overAlbedo(film, from);
-    Smoother smoother(guide, layer, brightness, threads);
-    for (int pass = 0; pass < passes; ++pass) smoother.pass(1 << pass);
-    for (size_t i = 0; i < pixels; ++i) {
-      picture[i] += Vec3f{layer.r[i], layer.g[i], layer.b[i]} * divisor(film.albedo[i]);
-    }
-  };
-  if (smoothing == Smoothing::Sky)
-    addPlain(film.sun);
-  else
-    add(film.sun, kSunPasses, kSunBrightness);
-  add(film.indirect, smoothing == Smoothing::Sky ? kSkyPasses : kIndirectPasses,
-      kIndirectBrightness);
+  Guide guide(film);
+  if (smoothing == Smoothing::Sky) {
+    smooth(guide, kSkyReach, 1, threads);
+  } else {
+    for (const int gap : kGaps) smooth(guide, kReach, gap, threads);
+  }
+  for (size_t i = 0; i < picture.size(); ++i)
+    add(i, {guide.light.r[i], guide.light.g[i], guide.light.b[i]});
   return picture;
 }
 

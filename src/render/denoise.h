@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Smooths a film's light along surfaces: what jitters from pixel to pixel is averaged with its
-// neighbours of like normal, depth and brightness. Colours and edges are not touched: they are kept
-// apart; of the sun's shadows only the grain of their soft rims goes.
+// Smooths a film's indirect light along surfaces. Colours, edges and the sun's shadows are not
+// touched: they are kept apart.
 #pragma once
 
 #include "render/film.h"
@@ -11,7 +10,7 @@
 namespace gable::rt {
 
 /// None only adds the parts up. Sky: of light that comes from the sky straight, which is smoother
-/// than that of paths, and the sun's is not touched.
+/// than that of paths.
 enum class Smoothing : uint8_t { None, Paths, Sky };
 
 /// The picture's linear light, exposure not applied.

@@ -4,30 +4,34 @@
 // The pixels that paths make, before they are smoothed and shown.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "render/stage.h"
 
 namespace gable::rt {
 
-/// A part of the light that is smoothed by itself: its mean over the samples of a pixel, and the
-/// variance of that mean over albedo, by luminance.
-struct FilmLayer {
-  std::vector<Vec3f> light;
-  std::vector<float> variance;
-};
-
-/// Means over the samples of a pixel, rows from the top.
+/// Means over the samples in and about a pixel, rows from the top.
 struct Film {
   uint32_t width = 0, height = 0;
-  FilmLayer sun, indirect;
-  std::vector<Vec3f> direct, albedo;
-  /// Over the samples that hit something; the normal shrinks where they disagree.
+  /// Light that needs no smoothing, and sunlight on the first surfaces.
+  std::vector<Vec3f> direct, sun;
+  std::vector<Vec3f> albedo;
+  /// Indirect light over albedo (albedoDivisor), and the variance of its luminance from the samples
+  /// of the pixel alone.
+  std::vector<Vec3f> irradiance;
+  std::vector<float> variance;
+  /// Of first surfaces, weighted by the luminance of their albedo as the light they send is; 0
+  /// where there are none. The normal shrinks where they disagree.
   std::vector<Vec3f> normal;
   std::vector<float> distance;
-  /// Standard deviation of the distance.
-  std::vector<float> spread;
 };
+
+/// What indirect light is divided by: nothing is quite black.
+inline Vec3f albedoDivisor(const Vec3f& albedo) {
+  constexpr float kLeast = 0.02f;
+  return {std::max(kLeast, albedo.x), std::max(kLeast, albedo.y), std::max(kLeast, albedo.z)};
+}
 
 /// A lens of that radius in metres; what lies at `focus` along the view is sharp.
 struct Lens {
