@@ -235,6 +235,9 @@ ValueType Analysis::visitCall(NodeId node) {
     meant_ = {};
     hint =
         "it is an operation, and those stand in rules: 'Name --> " + std::string(name) + "(...)'";
+  } else if (name == "not" || name == "NOT" || name == "Not") {
+    meant_ = {};
+    hint = "write !(...)";
   }
   errorAt("unknown-function", node, "there is no function " + quote(name), std::move(hint));
   return ValueType::Null;
