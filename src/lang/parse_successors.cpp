@@ -173,8 +173,9 @@ bool Parser::ifHere() const {
 // The words of other languages for a further branch: elif, elseif, else if.
 bool Parser::elseIfHere() const {
   if (is(Keyword::Else)) return isWord(ahead(1), "if") && conditionAfter(at_ + 1);
-  const bool word = isName(current()) && (isWord(current(), "elif") || isWord(current(), "elseif") ||
-                                          isWord(current(), "elsif"));
+  const bool word =
+      isName(current()) &&
+      (isWord(current(), "elif") || isWord(current(), "elseif") || isWord(current(), "elsif"));
   return word && conditionAfter(at_);
 }
 
@@ -182,9 +183,10 @@ bool Parser::elseIfHere() const {
 void Parser::reportElseIf() {
   const size_t tokens = is(Keyword::Else) ? 2 : 1;
   const Span span = {file_, current().begin, ahead(tokens - 1).end};
-  error("unexpected-token", span,
-        "'" + std::string(text_.substr(span.begin, span.end - span.begin)) + "' is no word of rules",
-        "write 'case': it begins each further branch, and only the last begins with 'else'");
+  error(
+      "unexpected-token", span,
+      "'" + std::string(text_.substr(span.begin, span.end - span.begin)) + "' is no word of rules",
+      "write 'case': it begins each further branch, and only the last begins with 'else'");
   fix(span, "case");
   at_ += tokens - 1;
   ifAt_ = at_;
