@@ -287,6 +287,15 @@ int writeText(const std::string& path, const std::string& text, const char* memb
   return written.ok ? kExitDone : kExitFile;
 }
 
+int writeReportTables(const gable::Model& model, const ReportArguments& arguments) {
+  if (!arguments.all.empty()) {
+    const std::string table = gable::reportsCsv(model.statistics().reports);
+    if (const int status = writeText(arguments.all, table, "table")) return status;
+  }
+  if (arguments.byShape.empty()) return kExitDone;
+  return writeText(arguments.byShape, gable::reportsCsv(model.reportsByShape()), "tableByShape");
+}
+
 int writeCounts(const std::string& path, const std::string& text) {
   if (path.empty() || (path == "-" && terminal().json)) return kExitDone;
   return writeText(path, text);

@@ -113,6 +113,12 @@ bool readText(const std::string& path, std::string& text);
 /// Writes to a file, or to stdout for "-", which is the answer's `member` with --json; an exit
 /// status.
 int writeText(const std::string& path, const std::string& text, const char* member = "text");
+/// Tables of what the rules reported, to the files that are named; an exit status.
+struct ReportArguments {
+  std::string all, byShape;
+  bool any() const { return !all.empty() || !byShape.empty(); }
+};
+int writeReportTables(const gable::Model& model, const ReportArguments& arguments);
 /// The same for --stats: nothing without a path, nor for "-" with --json, whose answer has the
 /// counts as members.
 int writeCounts(const std::string& path, const std::string& text);
