@@ -100,7 +100,8 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs);
 
 /// The exit status that a derivation asks for.
 int statusOf(const gable::Model& model);
-/// kExitLimit where a limit or a cancel ended what has these diagnostics, else `otherwise`.
+/// kExitUsage where the command line is to blame for these diagnostics, kExitLimit where a limit or
+/// a cancel ended what has them, else `otherwise`.
 int statusOf(const gable::DiagnosticList& diagnostics, int otherwise);
 
 /// Largest resident memory so far, in bytes.

@@ -20,7 +20,6 @@ namespace {
 
 int statusOfTiles(const gable::DiagnosticList& diagnostics) {
   for (const gable::Diagnostic& d : diagnostics) {
-    if (d.code == "attribute-value" || d.code == "tiles-job") return kExitUsage;
     if (d.code == "tiles-folder" || d.code == "tiles-plan" || d.code == "tiles-planned" ||
         d.code == "tiles-join" || d.code.starts_with("file-")) {
       return kExitFile;
