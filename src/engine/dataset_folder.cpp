@@ -140,8 +140,10 @@ Error otherSettings(const std::string& path, const std::string& was, const std::
             "name another folder, or remove the file"};
   }
   const Difference other = differenceOf(now.value(), before.value());
-  const std::string old = shown(other.before), given = shown(other.now);
-  return {"dataset-settings",
+  // What files hold is known by its hash, and no option says it.
+  const bool ofFiles = other.name == "rules" || other.name == "shapes";
+  const std::string old = ofFiles ? std::string() : shown(other.before), given = shown(other.now);
+  return {ofFiles ? "dataset-folder" : "dataset-settings",
           "the data set of '" + path + "' was begun with another value of '" + other.name + "'" +
               (old.empty() || given.empty() ? std::string() : ": " + old + ", and now " + given),
           "go on with the settings of before, or name another folder"};

@@ -213,7 +213,7 @@ class Dataset(Case):
         for option, value, says in (("--samples", "2", "'samples': 1, and now 2"), ("--cameras", "3", "'cameras': 2, and now 3"),
                                     ("--pitch", "20", "'pitch': none, and now 20")):
             self.make("a", option, value, status=USAGE, says="another value of " + says)
-        self.make("a", "--set", "height=5", status=FILE, says="'attributes'")
+        self.make("a", "--set", "height=5", status=USAGE, says="'attributes'")
         self.put("x.cga", RULES.replace("c04030", "c04040"))
         self.make("a", status=FILE, says="'rules'")
         (self.folder / "b").mkdir()
