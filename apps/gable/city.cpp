@@ -93,8 +93,25 @@ int checkMaking(const CityArguments& arguments, Making& making) {
                        arguments.derive.limits, making.write);
 }
 
+// Whoever has no rules of their own does not know where those lie that --set is for.
+void tellNames(const gable::Model& model, const DeriveArguments& derive) {
+  for (const gable::Diagnostic& d : model.diagnostics()) {
+    if (d.code != "unknown-attribute") continue;
+    note("gable info --all " + derive.rules + " lists what --set takes");
+    return;
+  }
+}
+
+// What is known of a place when it is made.
+struct Made {
+  gable::RunFigures figures;
+  gable::TileResult tiles;
+  /// Of a model.
+  std::optional<std::vector<gable::ReportSummary>> reports;
+};
+
 int buildModel(const gable::City& city, CityArguments& arguments, const Making& making,
-               gable::RunFigures& figures, gable::TileResult& tiles) {
+               Made& made) {
   gable::DeriveSettings settings;
   if (const int status = deriveSettings(arguments.derive, settings)) return status;
   gable::Rules rules(nullptr);
@@ -102,22 +119,27 @@ int buildModel(const gable::City& city, CityArguments& arguments, const Making& 
   const std::string folder = tileFolder(arguments.output);
   if (!folder.empty()) {
     const int status = makeTiles(arguments.derive, arguments.tiles,
-                                 {rules, city.shapes(), settings}, folder, tiles);
-    figures.deriveSeconds = tiles.deriveSeconds;
-    figures.writeSeconds = tiles.writeSeconds;
-    figures.triangles = tiles.triangles;
+                                 {rules, city.shapes(), settings}, folder, made.tiles);
+    made.figures.deriveSeconds = made.tiles.deriveSeconds;
+    made.figures.writeSeconds = made.tiles.writeSeconds;
+    made.figures.triangles = made.tiles.triangles;
     return status;
   }
   const gable::Model model = deriveModel(rules, city.shapes(), settings, stderr);
-  if (gable::hasErrors(model.diagnostics())) return statusOf(model);
+  if (gable::hasErrors(model.diagnostics())) {
+    tellNames(model, arguments.derive);
+    return statusOf(model);
+  }
   if (!arguments.output.empty()) {
-    if (const int status = writeModel(model, arguments.output, making.write, figures))
+    if (const int status = writeModel(model, arguments.output, making.write, made.figures))
       return status;
   }
   if (!arguments.picture.output.empty()) {
     if (const int status = drawPicture(model, arguments.picture.output, making.picture))
       return status;
   }
+  made.reports = model.statistics().reports;
+  if (const int status = writeReportTables(model, arguments.reports)) return status;
   return statusOf(model);
 }
 
@@ -127,16 +149,23 @@ int runCity(const CityArguments& given) {
   CityArguments arguments = given;
   const double begin = secondsNow();
   const bool draws = !arguments.picture.output.empty();
-  const bool builds = draws || !arguments.output.empty();
+  const bool builds = draws || !arguments.output.empty() || arguments.reports.any();
   if (!builds && arguments.plan.empty() && arguments.stats.empty()) {
     return fail(
         kExitUsage,
-        "say what to write: a model with -o, a picture with --picture, the ground with --plan");
+        "say what to write: a model with -o, a picture with --picture, the ground with --plan, "
+        "what the rules report with --reports");
   }
   if (!arguments.output.empty() && tileFolder(arguments.output).empty()) {
     std::vector<std::string> formats = gable::modelExtensions();
     formats.emplace_back("png");
     if (const int status = checkExtension(arguments.output, formats)) return status;
+  }
+  if (arguments.reports.any() && !tileFolder(arguments.output).empty()) {
+    return fail(
+        kExitUsage,
+        "--reports is for a model: tiles are derived in parts; leave -o out to have the table "
+        "alone");
   }
   if (const int status = checkTileOptions(arguments)) return status;
   arguments.picture.derive = arguments.derive;
@@ -161,21 +190,21 @@ int runCity(const CityArguments& given) {
   print(city.diagnostics());
   if (!city.found()) return kExitFile;
   if (!city.ok()) return statusOf(city.diagnostics(), kExitWrong);
-  gable::RunFigures figures;
-  figures.parseSeconds = secondsNow() - begin;
+  Made made;
+  made.figures.parseSeconds = secondsNow() - begin;
   if (!arguments.plan.empty()) {
     if (const int status = writeText(arguments.plan, city.groundGeoJson(), "plan")) {
       return status;
     }
   }
   int status = kExitDone;
-  gable::TileResult tiles;
-  if (builds) status = buildModel(city, arguments, making, figures, tiles);
+  if (builds) status = buildModel(city, arguments, making, made);
   if (status == kExitDone || status == kExitLimit) {
-    figures.totalSeconds = secondsNow() - begin;
-    figures.peakBytes = peakBytes();
+    made.figures.totalSeconds = secondsNow() - begin;
+    made.figures.peakBytes = peakBytes();
     const std::string text =
-        gable::cityJson(city.statistics(), figures, tiles.ok ? &tiles : nullptr);
+        gable::cityJson(city.statistics(), made.figures, made.tiles.ok ? &made.tiles : nullptr,
+                        made.reports ? &*made.reports : nullptr);
     answer().members(text);
     if (const int written = writeCounts(arguments.stats, text)) return written;
   }

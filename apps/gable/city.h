@@ -24,6 +24,7 @@ struct CityArguments {
   /// Where the ground goes as GeoJSON.
   std::string plan;
   std::string stats;
+  ReportArguments reports;
   WriteArguments write;
   TileArguments tiles;
   /// Its output is empty where no picture is asked for; it has no derivation of its own.

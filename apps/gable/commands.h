@@ -14,7 +14,7 @@ struct GenerateArguments {
   DeriveArguments derive;
   std::string output;
   std::string stats;
-  std::string reports, reportsByShape;
+  ReportArguments reports;
   /// The part of --shapes: west,south,east,north.
   std::string box;
   WriteArguments write;

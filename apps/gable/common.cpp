@@ -10,6 +10,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <initializer_list>
 #include <mutex>
 #include <random>
 #include <sstream>
@@ -239,18 +240,31 @@ int writeModel(const gable::Model& model, const std::string& path,
   return kExitDone;
 }
 
+namespace {
+
+bool hasCode(const gable::DiagnosticList& diagnostics, std::initializer_list<const char*> codes) {
+  return std::any_of(diagnostics.begin(), diagnostics.end(), [&](const auto& d) {
+    return std::find(codes.begin(), codes.end(), d.code) != codes.end();
+  });
+}
+
+// What only the command line says, also where it is found out with the rules and the shapes.
+bool isOfCommandLine(const gable::DiagnosticList& diagnostics) {
+  return hasCode(diagnostics,
+                 {"attribute-value", "picture-settings", "dataset-settings", "tiles-job"});
+}
+
+}  // namespace
+
 int statusOf(const gable::Model& model) {
-  for (const gable::Diagnostic& m : model.diagnostics()) {
-    if (m.code == "attribute-value") return kExitUsage;
-  }
+  if (isOfCommandLine(model.diagnostics())) return kExitUsage;
   if (gable::hasErrors(model.diagnostics())) return kExitWrong;
   return model.end() == gable::End::Done ? kExitDone : kExitLimit;
 }
 
 int statusOf(const gable::DiagnosticList& diagnostics, int otherwise) {
-  const bool limited = std::any_of(diagnostics.begin(), diagnostics.end(), [](const auto& d) {
-    return d.code == "out-of-time" || d.code == "out-of-memory" || d.code == "was-cancelled";
-  });
+  if (isOfCommandLine(diagnostics)) return kExitUsage;
+  const bool limited = hasCode(diagnostics, {"out-of-time", "out-of-memory", "was-cancelled"});
   return limited ? static_cast<int>(kExitLimit) : otherwise;
 }
 
@@ -285,6 +299,15 @@ int writeText(const std::string& path, const std::string& text, const char* memb
   print(written.diagnostics);
   if (written.ok) answer().wrote(path);
   return written.ok ? kExitDone : kExitFile;
+}
+
+int writeReportTables(const gable::Model& model, const ReportArguments& arguments) {
+  if (!arguments.all.empty()) {
+    const std::string table = gable::reportsCsv(model.statistics().reports);
+    if (const int status = writeText(arguments.all, table, "table")) return status;
+  }
+  if (arguments.byShape.empty()) return kExitDone;
+  return writeText(arguments.byShape, gable::reportsCsv(model.reportsByShape()), "tableByShape");
 }
 
 int writeCounts(const std::string& path, const std::string& text) {

@@ -100,7 +100,8 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs);
 
 /// The exit status that a derivation asks for.
 int statusOf(const gable::Model& model);
-/// kExitLimit where a limit or a cancel ended what has these diagnostics, else `otherwise`.
+/// kExitUsage where the command line is to blame for these diagnostics, kExitLimit where a limit or
+/// a cancel ended what has them, else `otherwise`.
 int statusOf(const gable::DiagnosticList& diagnostics, int otherwise);
 
 /// Largest resident memory so far, in bytes.
@@ -113,6 +114,12 @@ bool readText(const std::string& path, std::string& text);
 /// Writes to a file, or to stdout for "-", which is the answer's `member` with --json; an exit
 /// status.
 int writeText(const std::string& path, const std::string& text, const char* member = "text");
+/// Tables of what the rules reported, to the files that are named; an exit status.
+struct ReportArguments {
+  std::string all, byShape;
+  bool any() const { return !all.empty() || !byShape.empty(); }
+};
+int writeReportTables(const gable::Model& model, const ReportArguments& arguments);
 /// The same for --stats: nothing without a path, nor for "-" with --json, whose answer has the
 /// counts as members.
 int writeCounts(const std::string& path, const std::string& text);

@@ -13,5 +13,10 @@ int runConvert(const ConvertArguments& arguments) {
   if (gable::hasErrors(converted.diagnostics)) {
     return statusOf(converted.diagnostics, kExitWrong);
   }
+  if (!arguments.dialect && extensionOf(arguments.rules) == "cga") {
+    note("'" + arguments.rules +
+         "' is CGA already and is only laid out anew, as gable format does; convert makes CGA of "
+         ".gbbg, .grammar and .park");
+  }
   return writeText(arguments.output, converted.text);
 }

@@ -51,13 +51,11 @@ int datasetSettings(const DatasetArguments& a, gable::DatasetSettings& s) {
 
 int statusOfDataset(const gable::DatasetResult& result) {
   for (const gable::Diagnostic& d : result.diagnostics) {
-    if (d.code == "attribute-value" || d.code == "dataset-settings") return kExitUsage;
-    if (d.code == "dataset-folder" || d.code == "dataset-lock" || d.code == "picture-settings" ||
-        d.code.starts_with("file-")) {
+    if (d.code == "dataset-folder" || d.code == "dataset-lock" || d.code.starts_with("file-")) {
       return kExitFile;
     }
   }
-  if (result.end != gable::End::Done) return kExitLimit;
+  if (result.end != gable::End::Done) return statusOf(result.diagnostics, kExitLimit);
   return result.ok ? static_cast<int>(kExitDone) : statusOf(result.diagnostics, kExitWrong);
 }
 

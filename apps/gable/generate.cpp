@@ -71,16 +71,7 @@ int generateOnce(const GenerateArguments& arguments) {
   gable::RunFigures figures;
   if (const int status = writeModel(model, arguments.output, write, figures)) return status;
 
-  if (!arguments.reports.empty()) {
-    const std::string table = gable::reportsCsv(model.statistics().reports);
-    if (const int status = writeText(arguments.reports, table, "table")) return status;
-  }
-  if (!arguments.reportsByShape.empty()) {
-    const std::string table = gable::reportsCsv(model.reportsByShape());
-    if (const int status = writeText(arguments.reportsByShape, table, "tableByShape")) {
-      return status;
-    }
-  }
+  if (const int status = writeReportTables(model, arguments.reports)) return status;
   figures.parseSeconds = inputs.rules.parseSeconds();
   figures.totalSeconds = secondsNow() - begin;
   figures.peakBytes = peakBytes();
@@ -99,7 +90,8 @@ int runGenerate(const GenerateArguments& arguments) {
     return forSeeds(arguments.count, arguments.derive.seed, [&](const std::string& seed) {
       GenerateArguments each = arguments;
       each.derive.seed = seed;
-      for (std::string* path : {&each.output, &each.stats, &each.reports, &each.reportsByShape}) {
+      for (std::string* path :
+           {&each.output, &each.stats, &each.reports.all, &each.reports.byShape}) {
         *path = withSeed(*path, seed);
       }
       return generateOnce(each);

@@ -221,15 +221,19 @@ void addRuns(CLI::App* app, int& count, bool& watch) {
       ->excludes(seeds);
 }
 
+void addReports(CLI::App* app, ReportArguments& a) {
+  app->add_option("--reports", a.all, "Write reports as CSV to a file, or - for stdout");
+  app->add_option("--reports-by-shape", a.byShape,
+                  "The same with lines of its own for each initial shape");
+}
+
 void addGenerate(CLI::App& app, GenerateArguments& a, int& status) {
   auto* generate = app.add_subcommand("generate", "Derive rules and write a model");
   generate->add_option("rules", a.derive.rules, "The rule file or package")->required();
   addDeriveOptions(generate, a.derive);
   generate->add_option("-o,--output", a.output, "The model: " + modelEndings())->required();
   generate->add_option("--stats", a.stats, "Write counts as JSON to a file, or - for stdout");
-  generate->add_option("--reports", a.reports, "Write reports as CSV to a file, or - for stdout");
-  generate->add_option("--reports-by-shape", a.reportsByShape,
-                       "The same with lines of its own for each initial shape");
+  addReports(generate, a.reports);
   generate
       ->add_option("--box", a.box,
                    "Only those of --shapes with their middle in west,south,east,north, in degrees\n"
@@ -305,8 +309,11 @@ void addCity(CLI::App& app, CityArguments& a, int& status) {
   addPictureOptions(city, a.picture);
   city->add_option("--plan", a.plan,
                    "Write the ground to a file as GeoJSON: a polygon a piece, its surface");
+  addReports(city, a.reports);
   city->add_option("--stats", a.stats, "Write areas and counts as JSON to a file, or - for stdout");
-  city->add_option("--set", a.derive.set, "An attribute's value: NAME=VALUE; may be repeated")
+  city->add_option("--set", a.derive.set,
+                   "An attribute's value: NAME=VALUE; may be repeated. Names of imported files\n"
+                   "have the import's before them: houses.roof_shape; gable info --all lists them")
       ->type_size(1)
       ->expected(1)
       ->take_all();

@@ -20,7 +20,6 @@ namespace {
 
 int statusOfTiles(const gable::DiagnosticList& diagnostics) {
   for (const gable::Diagnostic& d : diagnostics) {
-    if (d.code == "attribute-value" || d.code == "tiles-job") return kExitUsage;
     if (d.code == "tiles-folder" || d.code == "tiles-plan" || d.code == "tiles-planned" ||
         d.code == "tiles-join" || d.code.starts_with("file-")) {
       return kExitFile;
@@ -192,7 +191,7 @@ int runPlan(const gable::TilePlan& plan, const gable::Rules& rules, const Means&
 int runInPieces(const TilesArguments& arguments, const std::string& folder, double begin) {
   ViewerPage page;
   if (arguments.tiles.viewer) {
-    if (const int status = page.find(folder)) return status;
+    if (const int status = page.findOrTell(folder)) return status;
   }
   gable::TilePlan plan(nullptr);
   if (const int status = planFolder(arguments.derive, arguments.tiles, true, folder, plan)) {
@@ -213,7 +212,7 @@ int writeTileFolder(const TilesArguments& arguments, const Inputs& inputs,
                     const std::string& folder, gable::TileResult& result) {
   ViewerPage page;
   if (arguments.tiles.viewer) {
-    if (const int status = page.find(folder)) return status;
+    if (const int status = page.findOrTell(folder)) return status;
   }
   Progress progress("writing tiles", "shapes");
   gable::TileSettings tiles = tileSettings(arguments.tiles, arguments.derive.limits);
@@ -256,7 +255,7 @@ int makeTiles(const DeriveArguments& derive, const TileArguments& tiles, const P
   const double begin = secondsNow();
   ViewerPage page;
   if (tiles.viewer) {
-    if (const int status = page.find(folder)) return status;
+    if (const int status = page.findOrTell(folder)) return status;
   }
   gable::TilePlanSettings settings = planSettings(derive, tiles, !tiles.onlyPlan);
   settings.tiles.derive = placed.settings;
@@ -320,7 +319,7 @@ int runTilesMerge(const MergeArguments& arguments) {
   const std::string folder = asFolder(arguments.folder);
   ViewerPage page;
   if (arguments.viewer) {
-    if (const int status = page.find(folder)) return status;
+    if (const int status = page.findOrTell(folder)) return status;
   }
   const gable::TilePlan plan = gable::TilePlan::load(folder);
   if (const int status = told(plan)) return status;

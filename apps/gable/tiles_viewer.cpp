@@ -32,6 +32,16 @@ int ViewerPage::find(const std::string& folder) {
   return mayHoldViewer(folder) ? kExitDone : kExitFile;
 }
 
+int ViewerPage::findOrTell(const std::string& folder) {
+  if (!folderWith("viewer.js", {"../studio/viewer", "../share/gable/studio/viewer"}).empty())
+    return find(folder);
+  note(
+      "the page for --viewer is not built, so the tiles get none; ./run studio builds it, and "
+      "gable tiles viewer " +
+      folder + " adds it then");
+  return kExitDone;
+}
+
 int ViewerPage::write() const {
   if (from_.empty()) return kExitDone;
   std::error_code error;

@@ -11,7 +11,9 @@ class ViewerPage {
   /// Before what takes long: whether the page is built, and may be put into the folder. An exit
   /// status, with a message.
   int find(const std::string& folder);
-  /// Writes it; nothing where find() was not called.
+  /// The same for tiles, which are worth having without a page: one that is not built is told.
+  int findOrTell(const std::string& folder);
+  /// Writes it; nothing where none was found.
   int write() const;
 
  private:

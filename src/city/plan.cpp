@@ -10,6 +10,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "base/check.h"
 #include "base/json.h"
 #include "base/measure.h"
 #include "base/work.h"
@@ -140,6 +141,7 @@ class Planner {
   GroundIndex& underIndex() const { return standingIndex_ ? *standingIndex_ : *index_; }
 
   CityShape& add(const char* rule, const std::string& id) {
+    GABLE_DCHECK(std::binary_search(cityRules().begin(), cityRules().end(), rule));
     out_.shapes.emplace_back();
     out_.shapes.back().rule = rule;
     out_.shapes.back().id = id;
@@ -638,6 +640,21 @@ class Planner {
 CityPlan planCity(const MapFeatures& map, const std::string& country, const HeightField* heights,
                   std::optional<double> soil) {
   return Planner(map, country, heights, soil).plan();
+}
+
+const std::vector<std::string_view>& cityRules() {
+  static const std::vector<std::string_view> all = [] {
+    std::vector<std::string_view> names{
+        "Barrier",    "BridgeDeck",   "BridgeParapet", "BridgePier", "BridgeRail", "BridgeWall",
+        "Building",   "BuildingPart", "Canopy",        "Crossing",   "Kerb",       "ParkingLane",
+        "Plinth",     "Rails",        "RetainingWall", "Soil",       "SoilRim",    "Street",
+        "StreetLamp", "Tree",         "TreeRow"};
+    for (size_t s = 0; s < kSurfaceCount; ++s)
+      names.push_back(surfaceName(static_cast<Surface>(s)));
+    std::sort(names.begin(), names.end());
+    return names;
+  }();
+  return all;
 }
 
 bool liesOnGround(std::string_view rule) {

@@ -74,6 +74,9 @@ struct CityPlan {
 CityPlan planCity(const MapFeatures& map, const std::string& country = {},
                   const HeightField* heights = nullptr, std::optional<double> soil = {});
 
+/// The names of all rules that shapes of plans begin with, sorted.
+const std::vector<std::string_view>& cityRules();
+
 /// Whether shapes that begin with a rule lie on the ground.
 bool liesOnGround(std::string_view rule);
 

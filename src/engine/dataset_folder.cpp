@@ -7,6 +7,7 @@
 #include "base/bytes.h"
 #include "base/files.h"
 #include "base/json.h"
+#include "base/number.h"
 #include "engine/dataset.h"
 #include "engine/shape_record.h"
 #include "engine/tile_plan.h"
@@ -102,13 +103,34 @@ bool equal(const JsonValue& a, const JsonValue& b) {
   return true;
 }
 
-// The name of the first member that is another one.
-std::string differenceOf(const JsonValue& a, const JsonValue& b) {
-  for (const auto& [name, value] : a.members()) {
-    if (equal(value, b[name])) continue;
-    return name == "picture" ? differenceOf(value, b[name]) : name;
+struct Difference {
+  std::string name;
+  JsonValue before, now;
+};
+
+// The first member that is another one.
+Difference differenceOf(const JsonValue& now, const JsonValue& before) {
+  for (const auto& [name, value] : now.members()) {
+    if (equal(value, before[name])) continue;
+    return name == "picture" ? differenceOf(value, before[name])
+                             : Difference{name, before[name], value};
   }
   return {};
+}
+
+// As a message shows it; empty for what is too long to be read there.
+std::string shown(const JsonValue& v) {
+  if (v.isNull()) return "none";
+  if (v.isBool()) return v.boolean(false) ? "true" : "false";
+  if (v.isNumber()) return shortestText(v.number(0));
+  constexpr size_t kLongest = 60;
+  if (v.isText()) return v.text().size() > kLongest ? std::string() : "'" + v.text() + "'";
+  std::string out;
+  for (const JsonValue& item : v.items()) {
+    if (item.isArray() || item.isObject() || out.size() > kLongest) return {};
+    out += (out.empty() ? "" : ", ") + shown(item);
+  }
+  return v.isArray() ? (out.empty() ? "none" : out) : out;
 }
 
 Error otherSettings(const std::string& path, const std::string& was, const std::string& is) {
@@ -117,9 +139,13 @@ Error otherSettings(const std::string& path, const std::string& was, const std::
     return {"dataset-folder", "'" + path + "' is no description of a data set of Gable",
             "name another folder, or remove the file"};
   }
-  return {"dataset-folder",
-          "the data set of '" + path + "' was begun with another value of '" +
-              differenceOf(now.value(), before.value()) + "'",
+  const Difference other = differenceOf(now.value(), before.value());
+  // What files hold is known by its hash, and no option says it.
+  const bool ofFiles = other.name == "rules" || other.name == "shapes";
+  const std::string old = ofFiles ? std::string() : shown(other.before), given = shown(other.now);
+  return {ofFiles ? "dataset-folder" : "dataset-settings",
+          "the data set of '" + path + "' was begun with another value of '" + other.name + "'" +
+              (old.empty() || given.empty() ? std::string() : ": " + old + ", and now " + given),
           "go on with the settings of before, or name another folder"};
 }
 

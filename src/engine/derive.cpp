@@ -14,6 +14,7 @@
 #include "builtins/catalogue.h"
 #include "city/drape.h"
 #include "city/plan.h"
+#include "engine/city_rules.h"
 #include "engine/footprint.h"
 #include "engine/missing_files.h"
 #include "engine/outside_values.h"
@@ -73,18 +74,45 @@ std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, const Rules:
   return out;
 }
 
-// The nearest of the names, else the first few of them.
+std::string_view lastPart(std::string_view name) { return name.substr(name.rfind('.') + 1); }
+
+// What is called alike in imported files, where names have the import's before them.
+std::string hintOfImports(const std::string& name, const std::vector<std::string_view>& names) {
+  constexpr size_t kShown = 3;
+  std::vector<std::string_view> last;
+  for (const std::string_view n : names) last.push_back(lastPart(n));
+  const std::string asked(lastPart(name));
+  const bool known = std::find(last.begin(), last.end(), asked) != last.end();
+  const std::string meant = known ? asked : nearestName(asked, last);
+  std::string hint;
+  size_t found = 0;
+  for (size_t i = 0; i < names.size() && !meant.empty(); ++i) {
+    if (last[i] != meant || found++ >= kShown) continue;
+    hint += (hint.empty() ? "did you mean '" : "' or '") + std::string(names[i]);
+  }
+  return hint.empty() ? hint
+                      : hint + "'?" + (found > kShown ? " There are more of that name." : "");
+}
+
+// The same or the nearest of the names, else the first few of them and where all are listed.
 std::string hintFor(const std::string& name, const std::vector<std::string_view>& names,
                     const char* what) {
   constexpr size_t kShown = 8;
   std::string hint = didYouMean(name, names);
+  const bool imported = std::any_of(names.begin(), names.end(),
+                                    [&](std::string_view n) { return lastPart(n) == name; });
+  if (imported || hint.empty()) {
+    const std::string ofImports = hintOfImports(name, names);
+    if (!ofImports.empty()) hint = ofImports;
+  }
   if (!hint.empty()) return hint;
   if (names.empty()) return std::string("there are no ") + what;
   hint = std::string("the ") + what + " are ";
   for (size_t i = 0; i < names.size() && i < kShown; ++i) {
     hint += (i ? ", " : "") + std::string(names[i]);
   }
-  return hint + (names.size() > kShown ? ", ..." : "");
+  if (names.size() <= kShown) return hint;
+  return hint + ", ...; gable info --all lists them";
 }
 
 std::string placeOf(const Scene& scene, const Leaf& leaf) {
@@ -303,8 +331,8 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
   const DiagnosticList made = told.without(
       listOf(inWordsOf(r.dialect, impl->result.diagnostics, builtinCatalogue()), r.sources));
   impl->diagnostics.insert(impl->diagnostics.end(), made.begin(), made.end());
-  for (const DiagnosticList& some :
-       {outsideValues(initial, r), unusedProperties(shapes.impl(), r)}) {
+  for (const DiagnosticList& some : {outsideValues(initial, r), unusedProperties(shapes.impl(), r),
+                                     cityRuleNotes(shapes.impl(), r)}) {
     impl->diagnostics.insert(impl->diagnostics.end(), some.begin(), some.end());
   }
   impl->makeSound(options.jobs > 0 ? static_cast<unsigned>(options.jobs) : defaultJobs());

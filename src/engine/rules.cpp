@@ -18,6 +18,7 @@
 #include "engine/builtin_files.h"
 #include "engine/guard.h"
 #include "engine/impl.h"
+#include "engine/other_notation.h"
 #include "gable/files.h"
 #include "lang/compile/compile.h"
 #include "lang/format.h"
@@ -256,8 +257,14 @@ std::shared_ptr<const Rules::Impl> parsed(const std::string& text, const Home& h
   const std::string name = impl->project->projectPath(path);
   const uint32_t file = impl->sources.add(name, text);
   ProjectLoader loader(*impl->project, settings);
-  lang::AnalysisInput input{parseAs(dialect.value(), impl->sources, file, loader, diagnostics),
-                            name, settings.style.value_or(std::string())};
+  lang::Tree tree = parseAs(dialect.value(), impl->sources, file, loader, diagnostics);
+  if (!settings.dialect && !dialect.value()) {
+    if (const auto other = asOtherNotation(path, impl->sources, file, loader, diagnostics)) {
+      impl->diagnostics.push_back(diagnosticOf(*other));
+      return impl;
+    }
+  }
+  lang::AnalysisInput input{std::move(tree), name, settings.style.value_or(std::string())};
   const lang::ResolvedProgram resolved = lang::analyse(
       std::move(input), builtinCatalogue(), *impl->pool, &loader, impl->sources, diagnostics);
   diagnostics = inWordsOf(impl->dialect, file, diagnostics, impl->sources, builtinCatalogue());
@@ -388,6 +395,14 @@ Converted convert(const std::string& text, const std::string& path, const LoadSe
     const uint32_t file = sources.add(project.projectPath(path), text);
     if (!dialect.value()) {
       out.text = lang::format(sources, file, diagnostics);
+      ProjectLoader loader(project, settings);
+      const auto other = settings.dialect
+                             ? std::nullopt
+                             : asOtherNotation(path, sources, file, loader, diagnostics);
+      if (other) {
+        out.diagnostics.push_back(diagnosticOf(*other));
+        return out;
+      }
     } else {
       ProjectLoader loader(project, settings);
       const lang::Tree tree = parseAs(dialect.value(), sources, file, loader, diagnostics);

@@ -3,11 +3,13 @@
 
 #include "json/city_json.h"
 
+#include "json/reports_json.h"
 #include "json/tiles_json.h"
 
 namespace gable {
 
-std::string cityJson(const CityStatistics& s, const RunFigures& figures, const TileResult* tiles) {
+std::string cityJson(const CityStatistics& s, const RunFigures& figures, const TileResult* tiles,
+                     const std::vector<ReportSummary>* reports) {
   std::string out;
   JsonWriter json(out, 2);
   json.beginObject().field("area", s.area).field("groundArea", s.groundArea);
@@ -44,6 +46,7 @@ std::string cityJson(const CityStatistics& s, const RunFigures& figures, const T
     writeTileCounts(json, *tiles);
     json.endObject();
   }
+  if (reports) writeReports(json, *reports);
   if (figures.triangles) json.field("triangles", *figures.triangles);
   if (figures.peakBytes) json.field("peakBytes", *figures.peakBytes);
   if (figures.fileBytes) json.field("fileBytes", *figures.fileBytes);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "gable/city.h"
 #include "gable/tiles.h"
@@ -13,8 +14,9 @@
 namespace gable {
 
 /// Areas by surface, counts of shapes, what was left out, and figures as one object.
-/// Those of tiles, too, where there are.
+/// Those of tiles, too, where there are, and what the rules of a model reported.
 std::string cityJson(const CityStatistics& statistics, const RunFigures& figures = {},
-                     const TileResult* tiles = nullptr);
+                     const TileResult* tiles = nullptr,
+                     const std::vector<ReportSummary>* reports = nullptr);
 
 }  // namespace gable

@@ -5,6 +5,7 @@
 
 #include "base/number.h"
 #include "json/answers.h"
+#include "json/reports_json.h"
 
 namespace gable {
 
@@ -20,6 +21,8 @@ uint64_t numberCount(const ReportSummary& r) {
   for (const auto& [value, count] : r.values) others += count;
   return r.count - others;
 }
+
+}  // namespace
 
 void writeReports(JsonWriter& json, const std::vector<ReportSummary>& reports) {
   json.key("reports").beginObject();
@@ -39,6 +42,8 @@ void writeReports(JsonWriter& json, const std::vector<ReportSummary>& reports) {
   }
   json.endObject();
 }
+
+namespace {
 
 void writeFigures(JsonWriter& json, const RunFigures& f) {
   json.key("seconds").beginObject();

@@ -62,24 +62,53 @@ NodeId Parser::parseExpression() {
   return value;
 }
 
-// `=` in a condition: reported, and read as the comparison that is meant.
-TokenKind Parser::operatorHere() {
-  if (!place_.comparing || !is(TokenKind::Equal)) return wordOperatorHere();
-  error("unexpected-token", spanOf(current()), "'=' does not compare", "write '=='");
-  fix(spanOf(current()), "==");
-  return TokenKind::EqualEqual;
+// Signs of other languages: two that stand together, read as the one that is meant.
+Parser::Sign Parser::doubledSignHere() const {
+  struct Pair {
+    TokenKind first, second, meant;
+    const char* sign;
+  };
+  constexpr Pair kPairs[] = {
+      {TokenKind::Less, TokenKind::Greater, TokenKind::NotEqual, "!="},
+      {TokenKind::Equal, TokenKind::Greater, TokenKind::GreaterEqual, ">="},
+      {TokenKind::Equal, TokenKind::Less, TokenKind::LessEqual, "<="},
+      {TokenKind::EqualEqual, TokenKind::Equal, TokenKind::EqualEqual, "=="},
+      {TokenKind::NotEqual, TokenKind::Equal, TokenKind::NotEqual, "!="},
+  };
+  for (const Pair& p : kPairs) {
+    if (is(p.first) && ahead(1).kind == p.second && ahead(1).begin == current().end) {
+      return {p.meant, 2, p.sign};
+    }
+  }
+  return {};
 }
 
-// `and` and `or` between two values, in the same way.
-TokenKind Parser::wordOperatorHere() {
+// The word or the single sign that stands where an operator is meant.
+Parser::Sign Parser::wordOperatorHere() const {
   const Token& t = current();
-  const bool isAnd = textOf(t) == "and";
-  if (!isName(t) || (!isAnd && textOf(t) != "or") || declarationHere()) return t.kind;
-  const char* const sign = isAnd ? "&&" : "||";
-  error("unexpected-token", spanOf(t), describe(t) + " is no operator",
-        std::string("write '") + sign + "'");
-  fix(spanOf(t), sign);
-  return isAnd ? TokenKind::And : TokenKind::Or;
+  // Between the parts of a block it is a sign of its own.
+  if (is(TokenKind::Pipe) && place_.blocks == 0) return {TokenKind::Or, 1, "||"};
+  if (!isName(t) || declarationHere()) return {};
+  if (isWord(t, "and")) return {TokenKind::And, 1, "&&"};
+  if (isWord(t, "or")) return {TokenKind::Or, 1, "||"};
+  return {};
+}
+
+// The operator at the current token, and how many tokens it has. What is written as in other
+// languages is reported, and read as it is meant.
+Parser::Sign Parser::operatorHere() {
+  Sign sign = doubledSignHere();
+  if (sign.tokens == 0) sign = wordOperatorHere();
+  const bool assigns = sign.tokens == 0 && place_.comparing && is(TokenKind::Equal);
+  if (assigns) sign = {TokenKind::EqualEqual, 1, "=="};
+  if (sign.tokens == 0) return {current().kind, 1, nullptr};
+  const Span span = {file_, current().begin, ahead(sign.tokens - 1).end};
+  const std::string written(text_.substr(span.begin, span.end - span.begin));
+  error("unexpected-token", span,
+        "'" + written + (assigns ? "' does not compare" : "' is no operator"),
+        std::string("write '") + sign.meant + "'");
+  fix(span, sign.meant);
+  return sign;
 }
 
 // A unit behind a number: 1.2m, or 1.2 m where nothing else can be meant. Behind a name only as the
@@ -134,8 +163,8 @@ bool Parser::skipPercent(NodeId left) {
 bool Parser::notHere() const {
   const Token& next = ahead(1);
   const bool operand = next.kind == TokenKind::Number || next.kind == TokenKind::Name;
-  return isName(current()) && textOf(current()) == "not" && operand &&
-         next.keyword != Keyword::Else && textOf(next) != "and" && textOf(next) != "or";
+  return isName(current()) && isWord(current(), "not") && operand &&
+         next.keyword != Keyword::Else && !isWord(next, "and") && !isWord(next, "or");
 }
 
 NodeId Parser::parseNot() {
@@ -148,7 +177,7 @@ NodeId Parser::parseNot() {
   const bool simple = tree_.kind(operand) != NodeKind::Binary;
   const std::string negated(text_.substr(begin, end - begin));
   const std::string written = simple ? "!" + negated : "!(" + negated + ")";
-  error("unexpected-token", spanOf(word), "'not' is no operator", "write " + written);
+  error("unexpected-token", spanOf(word), describe(word) + " is no operator", "write " + written);
   fix({file_, word.begin, end}, written);
   Node n = node(NodeKind::Unary, word.begin);
   n.op = static_cast<uint8_t>(UnaryOp::Not);
@@ -159,7 +188,8 @@ NodeId Parser::parseBinary(int minPrecedence) {
   const uint32_t begin = current().begin;
   NodeId left = parseUnary();
   while (!panic_) {
-    const Operator op = operatorOf(operatorHere());
+    const Sign sign = operatorHere();
+    const Operator op = operatorOf(sign.kind);
     if (op.precedence == 0 || op.precedence < minPrecedence) break;
     if (is(TokenKind::Percent) && ahead(1).kind == TokenKind::Colon) break;
     if (skipPercent(left)) break;
@@ -168,7 +198,7 @@ NodeId Parser::parseBinary(int minPrecedence) {
       break;
     }
     const bool elementwise = current().elementwise;
-    advance();
+    for (size_t i = 0; i < sign.tokens; ++i) advance();
     const NodeId right = parseBinary(op.precedence + 1);
     Node n = node(NodeKind::Binary, begin);
     n.op = static_cast<uint8_t>(op.op);

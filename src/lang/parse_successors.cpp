@@ -80,7 +80,7 @@ bool Parser::skipBadSuccessor() {
   const bool closes = is(TokenKind::RBrace) || is(TokenKind::RParen) || is(TokenKind::RBracket);
   if (atEnd() || (closes && current().match != Token::kNoMatch)) return false;
   if (is(TokenKind::Pipe) && place_.blocks > 0) return false;
-  if (commaBetweenParts()) return false;
+  if (wrongSeparatorHere()) return false;
   if (is(TokenKind::Comma) && place_.inOverrides) return false;
   if (separatorMissing()) return false;
   if (dashesHere()) {
@@ -93,10 +93,10 @@ bool Parser::skipBadSuccessor() {
   return true;
 }
 
-// A ',' in the place of the '|' between the parts of a block.
-bool Parser::commaBetweenParts() const {
+// A ',' or a ';' in the place of the '|' between the parts of a block.
+bool Parser::wrongSeparatorHere() const {
   const bool part = ahead(1).kind == TokenKind::LBrace || headAfter(at_ + 1);
-  return is(TokenKind::Comma) && place_.blocks > 0 && part;
+  return (is(TokenKind::Comma) || is(TokenKind::Semicolon)) && place_.blocks > 0 && part;
 }
 
 // Adds one successor; false where the sequence ends.
@@ -115,6 +115,7 @@ bool Parser::parseSuccessor(Nodes& items) {
     fix(spanOf(current()), "case");
     ifAt_ = at_;
   }
+  if (place_.inChoice && (elseIfHere() || otherwiseHere())) return false;
   if (!caseHere() && separatorMissing()) return false;
   if (caseHere() || weightHere()) return parseChoiceInSequence(items);
   if (is(TokenKind::LBracket)) {
@@ -128,14 +129,13 @@ bool Parser::parseSuccessor(Nodes& items) {
   return skipBadSuccessor();
 }
 
-// True at "if" with a condition and a colon behind it.
-bool Parser::ifHere() const {
-  if (!isName(current()) || textOf(current()) != "if") return false;
+// True at a word, such as "if", with a condition and a colon behind it.
+bool Parser::conditionAfter(size_t index) const {
   constexpr size_t kMost = 100;
-  const size_t last = at_ + kMost;
-  for (size_t i = at_ + 1; i < last && i < tokens_.size(); ++i) {
+  const size_t last = index + kMost;
+  for (size_t i = index + 1; i < last && i < tokens_.size(); ++i) {
     switch (token(i).kind) {
-      case TokenKind::Colon: return i > at_ + 1;
+      case TokenKind::Colon: return i > index + 1;
       case TokenKind::LParen:
       case TokenKind::LBracket:
         if (token(i).match == Token::kNoMatch) return false;
@@ -164,6 +164,38 @@ bool Parser::ifHere() const {
     }
   }
   return false;
+}
+
+bool Parser::ifHere() const {
+  return isName(current()) && textOf(current()) == "if" && conditionAfter(at_);
+}
+
+// The words of other languages for a further branch: elif, elseif, else if.
+bool Parser::elseIfHere() const {
+  if (is(Keyword::Else)) return isWord(ahead(1), "if") && conditionAfter(at_ + 1);
+  const bool word =
+      isName(current()) &&
+      (isWord(current(), "elif") || isWord(current(), "elseif") || isWord(current(), "elsif"));
+  return word && conditionAfter(at_);
+}
+
+// Reports them, and has the next branch begin there.
+void Parser::reportElseIf() {
+  const size_t tokens = is(Keyword::Else) ? 2 : 1;
+  const Span span = {file_, current().begin, ahead(tokens - 1).end};
+  error(
+      "unexpected-token", span,
+      "'" + std::string(text_.substr(span.begin, span.end - span.begin)) + "' is no word of rules",
+      "write 'case': it begins each further branch, and only the last begins with 'else'");
+  fix(span, "case");
+  at_ += tokens - 1;
+  ifAt_ = at_;
+}
+
+// The words of other languages for the last branch. In a block they may be selectors.
+bool Parser::otherwiseHere() const {
+  return place_.blocks == 0 && isName(current()) && ahead(1).kind == TokenKind::Colon &&
+         (isWord(current(), "default") || isWord(current(), "otherwise"));
 }
 
 bool Parser::parseChoiceInSequence(Nodes& items) {
@@ -203,7 +235,13 @@ NodeId Parser::parseBranchBody(bool expressions) {
 
 // The branch behind "else"; kNoNode if there is none.
 NodeId Parser::parseElse(bool expressions) {
-  if (!is(Keyword::Else)) return kNoNode;
+  if (otherwiseHere()) {
+    error("unexpected-token", spanOf(current()), describe(current()) + " is no word of 'case'",
+          "write 'else'");
+    fix(spanOf(current()), "else");
+  } else if (!is(Keyword::Else)) {
+    return kNoNode;
+  }
   Node n = node(NodeKind::Branch, current().begin);
   advance();
   if (!accept(TokenKind::Colon)) {
@@ -219,13 +257,17 @@ NodeId Parser::parseElse(bool expressions) {
 // over: names of arguments have one.
 bool Parser::comparesWithEqual() const {
   bool found = false;
+  // One comparison has one sign; the next stands behind '&&' or '||'.
+  bool compared = false;
   for (size_t i = at_; i < tokens_.size(); ++i) {
     const Token& t = tokens_[i];
+    if (t.kind == TokenKind::And || t.kind == TokenKind::Or || isWord(t, "and") || isWord(t, "or"))
+      compared = false;
     switch (t.kind) {
       case TokenKind::Colon: return found;
       case TokenKind::Equal:
-        if (found || i == at_) return false;
-        found = true;
+        if (compared || i == at_) return false;
+        found = compared = true;
         break;
       case TokenKind::LParen:
         if (i > at_ && tokens_[i - 1].kind == TokenKind::Name)
@@ -248,10 +290,22 @@ bool Parser::comparesWithEqual() const {
   return false;
 }
 
+void Parser::expectColonOfCondition() {
+  if (accept(TokenKind::Colon)) return;
+  const bool word = isName(current()) && isWord(current(), "then");
+  unexpected("':' after the condition of 'case'",
+             word || is(TokenKind::LBrace)
+                 ? "a branch has a colon and no braces: 'case condition : ... else : ...'"
+                 : "");
+  if (word) fix(spanOf(current()), ":");
+  if (word) advance();
+}
+
 NodeId Parser::parseCaseChoice(bool expressions) {
   const Token first = current();
   Nodes branches;
-  while (!panic_ && caseHere()) {
+  while (!panic_ && (caseHere() || elseIfHere())) {
+    if (!caseHere()) reportElseIf();
     Node n = node(NodeKind::Branch, current().begin);
     advance();
     NodeId condition;
@@ -261,7 +315,7 @@ NodeId Parser::parseCaseChoice(bool expressions) {
       const Enter enter(*this, inner);
       condition = parseBinary(0);
     }
-    expect(TokenKind::Colon, "after the condition of 'case'");
+    expectColonOfCondition();
     const NodeId body = parseBranchBody(expressions);
     n.end = endOfLast();
     branches.push_back(make(n, {condition, body}));
@@ -570,9 +624,9 @@ NodeId Parser::parseBlock(bool expressions) {
       wantItem = true;
       continue;
     }
-    if (!wantItem && commaBetweenParts()) {
+    if (!wantItem && wrongSeparatorHere()) {
       error("missing-separator", spanOf(current()), "the parts of a block have '|' between them",
-            "write '|' for ','");
+            "write '|' for " + describe(current()));
       fix(spanOf(current()), endOfLast() < current().begin ? "|" : " |");
       advance();
       wantItem = true;

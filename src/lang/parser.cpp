@@ -38,6 +38,12 @@ bool Parser::isName(const Token& t) const {
          t.keyword != Keyword::True && t.keyword != Keyword::False;
 }
 
+bool Parser::isWord(const Token& t, std::string_view word) const {
+  const std::string_view text = textOf(t);
+  return std::equal(text.begin(), text.end(), word.begin(), word.end(),
+                    [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
+}
+
 size_t Parser::skipBrackets(size_t index) const {
   const Token& t = token(index);
   if (t.kind != TokenKind::LParen || t.match == Token::kNoMatch) return index;

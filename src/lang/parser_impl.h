@@ -81,6 +81,8 @@ class Parser {
   /// Reports when it is not there: "expected ')' after the arguments".
   bool expect(TokenKind kind, const char* where);
   bool isName(const Token& t) const;
+  /// Whether a token is a word, in small letters or capitals.
+  bool isWord(const Token& t, std::string_view word) const;
   uint32_t endOfLast() const { return at_ == 0 ? 0 : tokens_[at_ - 1].end; }
   /// The token after an optional "(...)" that starts at `index`; `index` itself if there is none.
   size_t skipBrackets(size_t index) const;
@@ -162,18 +164,31 @@ class Parser {
   bool comparesWithEqual() const;
   bool skipBadSuccessor();
   bool reportBadSuccessor();
+  bool conditionAfter(size_t index) const;
   bool ifHere() const;
+  bool elseIfHere() const;
+  bool otherwiseHere() const;
+  void reportElseIf();
+  void expectColonOfCondition();
   bool caseHere() const { return is(Keyword::Case) || at_ == ifAt_; }
   bool starHere(size_t index) const;
   bool bareArgumentHere() const;
-  bool commaBetweenParts() const;
+  bool wrongSeparatorHere() const;
   NodeId parseBareArgument(const Token& name);
   bool parseStarHead(NodeId& head);
 
   // --- Expressions (parse_expressions.cpp) ---
   NodeId parseExpression();
-  TokenKind operatorHere();
-  TokenKind wordOperatorHere();
+  // An operator as it stands in the text: what it is read as, its tokens (0: there is none), and
+  // how it is written where that is another way.
+  struct Sign {
+    TokenKind kind = TokenKind::End;
+    size_t tokens = 0;
+    const char* meant = nullptr;
+  };
+  Sign doubledSignHere() const;
+  Sign wordOperatorHere() const;
+  Sign operatorHere();
   bool unitAt(size_t at) const;
   void skipUnit();
   bool skipPercent(NodeId left);

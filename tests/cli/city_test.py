@@ -97,6 +97,49 @@ class City(Case):
         self.assertIn("g Block", text)
         self.assertIn("g Flat", text)
 
+    def testNamesOfImportsAreFoundForSet(self):
+        for name, meant in (("building_levels", "houses.building_levels"), ("building_level", "houses.building_levels"),
+                            ("plantng", "planting")):
+            told = self.city("map.geojson", "--set", f"{name}=3", "-o", "a.glb", status=WRONG, says=f"did you mean '{meant}'?")
+            self.assertIn("rules/city.cga lists what --set takes", told)
+        self.city("map.geojson", "--set", "zzzzzz=3", "-o", "a.glb", status=WRONG, says="gable info --all lists them")
+        self.put("lib.cga", "attr depth = 1\nWindow --> X.\n")
+        self.put("two.cga", 'import a : "lib.cga"\nimport b : "lib.cga"\nLot --> a.Window\n')
+        for option in ("--set", "--start"):
+            value, meant = ("depth=2", "depth") if option == "--set" else ("Windw", "Window")
+            self.run_gable("generate", "two.cga", option, value, "-o", "a.glb", status=WRONG,
+                           says=f"did you mean 'a.{meant}' or 'b.{meant}'?")
+
+    def testRulesThatACityDoesNotCallAreTold(self):
+        (self.folder / "own").mkdir()
+        self.put("own/city.cga", "@StartRule Ground --> Flat.\nBulding --> extrude(7) Wall\nWall --> X.\nKirb --> X.\nHelper --> X.\n")
+        told = self.city("map.geojson", "--rules", "own", "-o", "own.obj")
+        self.assertIn("'Bulding', and 2 shapes 'Building' of the map begin with 'Ground' [city-rule]", told)
+        self.assertIn("did you mean 'Building'?", told)
+        self.assertIn("did you mean 'Kerb'?", told)
+        self.assertIn("calls the rule 'Helper' [unused-rule]", told)
+        self.assertNotIn("'Wall'", told)
+        self.assertRegex(told, r"note: .* begin with 'Ground': Carriageway \(4\), Footprint \(2\), .*\[city-rules\]")
+        # Whose shapes the map has none of: a slip all the same.
+        self.put("own/city.cga", "@StartRule Ground --> Flat.\nBuilding --> X.\nStreetLmp --> X.\nTree --> X.\n")
+        told = self.city("map.geojson", "--rules", "own", "-o", "own.obj", says="a city calls no rule 'StreetLmp' [city-rule]")
+        self.assertNotIn("'Tree'", told)
+        # Those that come with Gable have one for everything.
+        for code in ("city-rule", "unused-rule"):
+            self.assertNotIn(code, self.city("map.geojson", "-o", "all.obj"))
+
+    def testReportsOfRulesAreTables(self):
+        (self.folder / "own").mkdir()
+        self.put("own/city.cga", "@StartRule Ground --> NIL\nBuilding --> report(\"area\", geometry.area) Block.\n")
+        table = self.city("map.geojson", "--rules", "own", "--reports", "-")
+        self.assertIn("key,value,count,sum,average,minimum,maximum\narea,,2,544,272,144,400\n", table)
+        self.city("map.geojson", "--rules", "own", "--reports-by-shape", "rows.csv", "-o", "a.glb", "--stats", "stats.json")
+        rows = (self.folder / "rows.csv").read_text().splitlines()
+        self.assertEqual(rows[1:], ["Building,Building/feature/1,area,,1,144,144,144,144",
+                                    "Building,Building/feature/2,area,,1,400,400,400,400"])
+        self.assertEqual(self.read("stats.json")["reports"], {"area": {"n": 2, "sum": 544, "avg": 272, "min": 144, "max": 400}})
+        self.city("map.geojson", "--rules", "own", "--reports", "-", "-o", "tiles/", status=USAGE, says="--reports is for a model")
+
     def testAnAttributeOfTheMapIsDeclaredOnce(self):
         (self.folder / "once").mkdir()
         house = 'attr heritage = "none"\nattr roof_colour = ""\nHouse --> print(heritage + roof_colour) Block.\n'

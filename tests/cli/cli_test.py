@@ -78,6 +78,30 @@ class Options(Case):
         self.run_gable("render", "x.cga", "-o", "a.jpg", status=USAGE, says=".png")
         self.run_gable("render", "x.cga", "--eye=1,2,3", "--target=4,5,6", "--fov=60", "--size=16x9", "--samples=1", "-o", "a.png")
 
+    def testWhatTheCommandLineSaysWrongEndsAlike(self):
+        # Also where it is found out with the shapes, in each command that draws.
+        self.put("x.cga", "Lot --> extrude(9) X.")
+        small = ["--size", "16x9", "--samples", "1"]
+        noPlace = ["--sun-at", "2024-06-21,12"]
+        for command in (["render", "x.cga", *small, *noPlace, "-o", "a.png"],
+                        ["render", "x.cga", *small, *noPlace, "-o", "a.png", "--turntable", "2"],
+                        ["dataset", "x.cga", *small, *noPlace, "-o", "set", "--count", "1", "--cameras", "1"]):
+            self.run_gable(*command, status=USAGE, says="the sun's place is not known")
+
+    def testTheNotationOfATextIsGuessed(self):
+        root = Path(__file__).resolve().parents[2]
+        for name, option in (("gbbg/gbbg.gbbg", "gbbg"), ("park/square.park", "park"), ("progen3d/progen3d.grammar", "progen3d")):
+            self.put("x.txt", (root / "examples" / name).read_text())
+            for command in (["check", "x.txt"], ["convert", "x.txt"], ["generate", "x.txt", "-o", "a.glb"]):
+                told = self.run_gable(*command, status=WRONG, says=f"--dialect {option}")
+                self.assertEqual(told.count("error: "), 1, told)
+        # What is CGA with a slip stays that, and so does what is nothing.
+        for text in ("Lot -> extrude(3) X.", "Lot --> extrude(3 X.\nA --> B.", "words and words", "{", "a\nb\nc\n"):
+            self.put("x.txt", text)
+            self.assertNotIn("rules-notation", self.run_gable("check", "x.txt", status=WRONG))
+        self.put("x.cga", "Lot --> X.")
+        self.run_gable("convert", "x.cga", says="is CGA already")
+
     def testAnEmptyModelIsTold(self):
         self.put("x.cga", "Fence --> NIL\nHouse --> extrude(3) X.\n")
         told = self.run_gable("generate", "x.cga", "-o", "a.glb", says="the start rule 'Fence' made nothing [empty-model]")

@@ -210,8 +210,10 @@ class Dataset(Case):
 
     def testOtherSettingsAreRefused(self):
         self.make("a")
-        self.make("a", "--samples", "2", status=FILE, says="another value of 'samples'")
-        self.make("a", "--set", "height=5", status=FILE, says="'attributes'")
+        for option, value, says in (("--samples", "2", "'samples': 1, and now 2"), ("--cameras", "3", "'cameras': 2, and now 3"),
+                                    ("--pitch", "20", "'pitch': none, and now 20")):
+            self.make("a", option, value, status=USAGE, says="another value of " + says)
+        self.make("a", "--set", "height=5", status=USAGE, says="'attributes'")
         self.put("x.cga", RULES.replace("c04030", "c04040"))
         self.make("a", status=FILE, says="'rules'")
         (self.folder / "b").mkdir()
@@ -226,7 +228,7 @@ class Dataset(Case):
             self.make("a", *option, status=USAGE, says=option[0])
         self.assertFalse((self.folder / "a").exists())
         self.make("a", "--set", "heigth=3", status=WRONG, says="[unknown-attribute]")
-        self.make("a", "--sun-at", "2024-06-21,12", status=FILE, says="[picture-settings]")
+        self.make("a", "--sun-at", "2024-06-21,12", status=USAGE, says="[picture-settings]")
         self.assertFalse((self.folder / "a").exists())
         self.put("x.cga", "Lot --> extrude(3) X.")
         self.make("b", "--labels", "label", status=WRONG, says="[dataset-labels]")

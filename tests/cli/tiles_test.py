@@ -624,6 +624,18 @@ class Jobs(Case):
         self.assertEqual(told.returncode, 0)
         self.assertTrue(page.exists() and (self.folder / "out/viewer.js").exists())
 
+    def testTilesAreMadeWhereThePageIsNotBuilt(self):
+        # A program that lies alone has no page beside it.
+        alone = self.folder / "gable"
+        os.link(GABLE, alone)
+        told = subprocess.run([str(alone), "tiles", "boxes.cga", "--shapes", "lots.geojson", "--viewer", "-o", "out"], check=False,
+                              cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(told.returncode, DONE, told.stderr)
+        self.assertIn("gable tiles viewer out/ adds it then", told.stderr)
+        self.assertTrue((self.folder / "out/tileset.json").exists())
+        told = subprocess.run([str(alone), "tiles", "viewer", "out"], check=False, cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(told.returncode, FILE, told.stderr)
+
     def testBracesInPathsAreOnesForGnuParallel(self):
         if not shutil.which("parallel"):
             self.skipTest("GNU parallel is not installed")

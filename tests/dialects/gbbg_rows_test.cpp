@@ -431,7 +431,7 @@ TEST(Gbbg, G22RulesAreSharedBetweenGrammars) {
                                  (folder / "main.gbbg").string(), {folder.string(), {}, {}});
   ASSERT_GE(bad.diagnostics().size(), 2u);
   EXPECT_EQ(bad.diagnostics()[0].range->line, 1u);
-  EXPECT_NE(bad.diagnostics()[0].message.find("bad.gbbg:2:1"), std::string::npos);
+  EXPECT_NE(bad.diagnostics()[0].message.find("bad.gbbg:1:14"), std::string::npos);
   EXPECT_EQ(bad.diagnostics()[1].code, "gbbg-use");
   EXPECT_EQ(bad.diagnostics()[1].range->line, 2u);
   fs::remove_all(folder);

@@ -48,8 +48,27 @@ bool Parser::acceptWord(std::string_view word) {
   return true;
 }
 
+// The bracket that a closer which is missing here belongs to.
+const Token* Parser::openBefore(char closer) const {
+  const char opener = closer == '}' ? '{' : closer == ')' ? '(' : closer == ']' ? '[' : 0;
+  size_t closed = 0;
+  for (size_t i = at_; opener != 0 && i-- > 0;) {
+    const Token& t = tokens_[i];
+    if (t.kind != TokenKind::Sign) continue;
+    if (t.sign == closer) ++closed;
+    if (t.sign == opener && closed-- == 0) return &t;
+  }
+  return nullptr;
+}
+
 bool Parser::expect(char sign, const char* where) {
   if (accept(sign)) return true;
+  const Token* const open = atEnd() || statementAt(at_, false) ? openBefore(sign) : nullptr;
+  if (open) {
+    return error(sign == '}' ? "unclosed-block" : "unclosed-bracket", spanOf(*open),
+                 std::string("this '") + open->sign + "' is never closed",
+                 std::string("add '") + sign + "' before " + described());
+  }
   return unexpected("'" + std::string(1, sign) + "' " + where);
 }
 

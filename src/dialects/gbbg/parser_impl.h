@@ -67,6 +67,7 @@ class Parser {
   bool accept(char sign);
   bool acceptWord(std::string_view word);
   bool expect(char sign, const char* where);
+  const Token* openBefore(char closer) const;
   bool expectNumber(double& out, const char* what);
   bool expectTriple(Triple& out, const char* what);
   bool expectSymbol(Symbol& out, const char* what);

@@ -5,6 +5,8 @@
 // an equals sign follows, with parameters or without.
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
+#include <cstdint>
 
 #include "base/number.h"
 #include "base/text.h"
@@ -41,7 +43,6 @@ std::string plainQuotes(std::string_view text) {
   return out;
 }
 
-constexpr const char* kStillOpen = "add it: a bracket that was opened before is still open here";
 constexpr const char* kRuleForm = "rules are written 'Name -> operations', constants 'name = 3'";
 
 class Parser {
@@ -120,6 +121,22 @@ class Parser {
   void error(const char* code, Span where, std::string message, std::string hint) {
     diagnostics_.error(code, where, std::move(message), std::move(hint));
   }
+  // Where a bracket was opened that the text at hand does not close; of several the innermost.
+  void unclosed(size_t open, char closer) {
+    if (unclosedAt_ == at_) return;
+    unclosedAt_ = at_;
+    const bool ends = atEnd();
+    const bool same = std::count(text_.begin() + static_cast<ptrdiff_t>(open),
+                                 text_.begin() + static_cast<ptrdiff_t>(at_), '\n') == 0;
+    const auto line =
+        1 + std::count(text_.begin(), text_.begin() + static_cast<ptrdiff_t>(at_), '\n');
+    error(closer == '}' ? "unclosed-block" : "unclosed-bracket", span(open, open + 1),
+          std::string("this '") + text_[open] + "' is never closed",
+          std::string("add '") + closer + "'" +
+              (ends   ? " before the end of the file"
+               : same ? ""
+                      : " before line " + std::to_string(line)));
+  }
   void unexpected(const char* wanted, const char* hint) {
     const size_t end = std::min(at_ + 1, text_.size());
     error("unexpected-text", span(std::min(at_, end), end),
@@ -185,12 +202,14 @@ class Parser {
       accept("=");
       return constant(r.name, r.nameSpan);
     }
+    skip();
+    const size_t open = at_;
     if (accept("(")) {
       while (peek() != ')' && !atEnd()) {
         parameter(r);
         if (!accept(",")) break;
       }
-      if (!accept(")")) unexpected("')'", kStillOpen);
+      if (!accept(")")) unclosed(open, ')');
     }
     if (!accept("-->") && !accept("->")) {
       unexpected("'->'", kRuleForm);
@@ -289,6 +308,8 @@ class Parser {
   Op operation(const std::string& word, size_t start, int depth) {
     Op op;
     op.name = word;
+    skip();
+    const size_t open = at_;
     if (accept("(")) {
       op.called = true;
       while (peek() != ')' && !atEnd()) {
@@ -297,10 +318,10 @@ class Parser {
         op.arguments.push_back({until(","), span(begin, at_)});
         if (!accept(",")) break;
       }
-      if (!accept(")")) unexpected("')'", kStillOpen);
+      if (!accept(")")) unclosed(open, ')');
     } else if (accept("[")) {
       op.size = until("]");
-      if (!accept("]")) unexpected("']'", kStillOpen);
+      if (!accept("]")) unclosed(open, ']');
     }
     const std::string what = lowerCase(word);
     const Parts parts = what == "choose"   ? Parts::Choices
@@ -342,9 +363,12 @@ class Parser {
     }
     if (!accept("}")) {
       const bool divided = peek() == (choose ? '|' : ',');
-      unexpected("'}'", !divided ? kStillOpen
-                        : choose ? "parts of Choose are divided by commas"
-                                 : "parts are divided by '|'");
+      if (divided) {
+        unexpected("'}'",
+                   choose ? "parts of Choose are divided by commas" : "parts are divided by '|'");
+      } else {
+        unclosed(start, '}');
+      }
       while (!atEnd() && peek() != '}' && !declarationHere()) ++at_;
       accept("}");
     }
@@ -385,6 +409,7 @@ class Parser {
   Diagnostics& diagnostics_;
   Grammar grammar_;
   size_t at_ = 0;
+  size_t unclosedAt_ = SIZE_MAX;
   bool tooDeep_ = false;
 };
 

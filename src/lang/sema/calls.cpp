@@ -277,6 +277,15 @@ std::string Analysis::mismatchHint(NodeId node, const ParamSpec& param, ValueTyp
       parseNumber(text(node), number)) {
     return "remove the quotes: " + std::string(text(node));
   }
+  if (valueType(param.type) == ValueType::String && tree().kind(node) == NodeKind::Number) {
+    return "write it in quotes: \"" + shortestText(tree().number(node)) + "\"";
+  }
+  const AttributeInfo* named = attributeAt(node);
+  const ValueType wanted = valueType(param.type);
+  const bool list = type == ValueType::FloatArray || type == ValueType::StringArray ||
+                    type == ValueType::BoolArray;
+  if (named && list) return "take one value of the list, such as " + named->name + "[0]";
+  if (named && wanted != ValueType::Null) return typeRemedy(*named, wanted);
   return "it is: " + docText(param);
 }
 

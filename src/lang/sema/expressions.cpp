@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "base/number.h"
 #include "base/work.h"
 #include "lang/sema/analysis.h"
 
@@ -26,6 +27,28 @@ void Analysis::expectType(NodeId node, ValueType got, ValueType wanted, const ch
           who + " must be a " + typeName(wanted) + ", not a " + typeName(got),
           named ? typeRemedy(*named, wanted) : "");
 }
+
+namespace {
+
+// How a value that stands there in letters is written as one of another type; empty where that
+// cannot be.
+std::string otherwiseWritten(const Tree& t, NodeId node, ValueType wanted) {
+  double number = 0;
+  const NodeKind kind = t.kind(node);
+  if (kind == NodeKind::String) {
+    const std::string_view word = t.text(node);
+    const bool fits = (wanted == ValueType::Bool && (word == "true" || word == "false")) ||
+                      (wanted == ValueType::Float && parseNumber(word, number));
+    return fits ? "remove the quotes: " + std::string(word) : std::string();
+  }
+  if (wanted != ValueType::String) return {};
+  if (kind == NodeKind::Number)
+    return "write it in quotes: \"" + shortestText(t.number(node)) + '"';
+  if (kind != NodeKind::Bool) return {};
+  return std::string("write it in quotes: ") + (t.number(node) != 0 ? "\"true\"" : "\"false\"");
+}
+
+}  // namespace
 
 // The attribute that a name stands for; null for all else.
 const AttributeInfo* Analysis::attributeAt(NodeId node) const {
@@ -235,6 +258,9 @@ ValueType Analysis::visitCall(NodeId node) {
     meant_ = {};
     hint =
         "it is an operation, and those stand in rules: 'Name --> " + std::string(name) + "(...)'";
+  } else if (name == "not" || name == "NOT" || name == "Not") {
+    meant_ = {};
+    hint = "write !(...)";
   }
   errorAt("unknown-function", node, "there is no function " + quote(name), std::move(hint));
   return ValueType::Null;
@@ -394,9 +420,18 @@ ValueType Analysis::visitBinary(NodeId node) {
     return t == ValueType::Selector ? ValueType::String : t;
   };
   if (a != ValueType::Null && b != ValueType::Null && comparable(a) != comparable(b)) {
+    // Texts are seldom ordered: there a number is meant.
+    const bool ordered = op != BinaryOp::Equal && op != BinaryOp::NotEqual;
+    std::string remedy = otherwiseWritten(tree(), right, ordered ? ValueType::Float : a);
+    if (remedy.empty()) remedy = otherwiseWritten(tree(), left, ordered ? ValueType::Float : b);
+    const AttributeInfo* named = attributeAt(left);
+    const ValueType wanted = named ? b : a;
+    if (!named) named = attributeAt(right);
+    if (remedy.empty() && named) remedy = typeRemedy(*named, wanted);
+    if (remedy.empty()) remedy = "convert one of them with str(), float() or bool()";
     errorAt("type-mismatch", node,
             std::string("a ") + typeName(a) + " cannot be compared with a " + typeName(b),
-            "convert one of them with str(), float() or bool()");
+            std::move(remedy));
   }
   return ValueType::Bool;
 }
