@@ -12,9 +12,14 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CXX_FLAGS)
 endif()
 
 find_program(GABLE_CCACHE ccache)
-if(GABLE_CCACHE AND NOT EMSCRIPTEN)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${GABLE_CCACHE})
-  set(CMAKE_C_COMPILER_LAUNCHER ${GABLE_CCACHE})
+if(GABLE_CCACHE)
+  set(launcher ${GABLE_CCACHE})
+  if(EMSCRIPTEN)
+    # It has headers compiled before, which ccache takes if it is told so.
+    set(launcher ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${GABLE_CCACHE})
+  endif()
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${launcher})
+  set(CMAKE_C_COMPILER_LAUNCHER ${launcher})
 endif()
 
 # Same input, same bytes: no fused multiply-add, no value-changing optimisation.

@@ -19,6 +19,17 @@ endforeach()
 
 set(CMAKE_POSITION_INDEPENDENT_CODE OFF)
 
+# A page is fetched before it runs: only layers in whose loops derivations spend their time are compiled for speed.
+foreach(layer lang builtins io engine studio)
+  set(GABLE_WASM_OPTIONS_${layer} -Os)
+endforeach()
+foreach(layer program dialects language material city tiles json lsp)
+  set(GABLE_WASM_OPTIONS_${layer} -Oz)
+endforeach()
+# Nothing asks for types at run time. Headers that are compiled before are equal where their
+# texts are, for ccache.
+add_compile_options("$<$<COMPILE_LANGUAGE:CXX>:-fno-rtti;SHELL:-Xclang -fno-pch-timestamp>")
+
 # What files of all layers include, compiled once a layer: it is half of the work. The first adds what the library
 # lacks of C++20.
 set(GABLE_WASM_HEADERS ${PROJECT_SOURCE_DIR}/apps/gable_wasm/library/cxx20.h <algorithm> <array> <atomic> <cmath> <cstdint>

@@ -32,8 +32,9 @@ def _common(wishes, shapes):
 
 
 def generate(program, wishes, shapes, model, statistics):
-    return [program, "generate", *_common(wishes, shapes), f"--output={model}", f"--stats={statistics}",
-            "--", wishes.rules]
+    # Large files round what a vertex says by default; what is edited further keeps its exact places.
+    return [program, "generate", *_common(wishes, shapes), "--vertices=float", f"--output={model}",
+            f"--stats={statistics}", "--", wishes.rules]
 
 
 def info(program, wishes, shapes):

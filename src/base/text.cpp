@@ -73,6 +73,14 @@ std::string didYouMean(std::string_view name, const std::vector<std::string_view
   return nearest.empty() ? std::string() : "did you mean '" + nearest + "'?";
 }
 
+bool takeLine(std::string_view& rest, std::string_view& line) {
+  if (rest.empty()) return false;
+  const size_t end = std::min(rest.find('\n'), rest.size());
+  line = rest.substr(0, end);
+  rest.remove_prefix(std::min(end + 1, rest.size()));
+  return true;
+}
+
 size_t utf8Length(std::string_view text, size_t at) {
   const auto byte = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char lead = byte(at);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Small helpers for text: lower case, the nearest known name for "did you mean", and UTF-8. All
-// functions are pure.
+// Small helpers for text: lower case, the nearest known name for "did you mean", lines, and UTF-8.
+// All functions are pure.
 #pragma once
 
 #include <cstddef>
@@ -32,6 +32,9 @@ std::string nearestName(std::string_view name, const std::vector<std::string_vie
 
 /// "did you mean 'x'?" for a non-empty nearest name, else empty.
 std::string didYouMean(std::string_view name, const std::vector<std::string_view>& candidates);
+
+/// Takes the next line from the front of `rest`, without its end; false where nothing is left.
+bool takeLine(std::string_view& rest, std::string_view& line);
 
 /// Length in bytes of the UTF-8 sequence at `text[at]`; 0 if it is not a valid one.
 size_t utf8Length(std::string_view text, size_t at);

@@ -41,6 +41,19 @@ TEST(Text, nearestNameIsNearOrNone) {
   EXPECT_EQ(didYouMean("qqq", names), "");
 }
 
+TEST(Text, linesAreTakenOneAfterTheOther) {
+  const auto lines = [](std::string_view rest) {
+    std::vector<std::string_view> all;
+    for (std::string_view line; takeLine(rest, line);) all.push_back(line);
+    return all;
+  };
+  using Lines = std::vector<std::string_view>;
+  EXPECT_EQ(lines("a\n\nb"), (Lines{"a", "", "b"}));
+  EXPECT_EQ(lines("a\n"), Lines{"a"});
+  EXPECT_EQ(lines("\n"), Lines{""});
+  EXPECT_EQ(lines(""), Lines{});
+}
+
 TEST(Text, utf8IsWrittenAndMeasured) {
   for (const uint32_t c : {0x41u, 0xe9u, 0x20acu, 0x1f3e0u}) {
     std::string s;

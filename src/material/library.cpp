@@ -223,8 +223,7 @@ constexpr LibraryMaterial kLibrary[] = {
      0x2b515b, 0x2b515b,
      0.3,      0.1,
      0.002,    0.04,
-     0,        1.33,
-     0.5},
+     0,        1.33},
     {"zinc.seam", "Zinc with standing seams every 0.6 m.", K::Seams, 1.2, 2.4, 2, 1, B::Stack, 0,
      0.014, 0.025, 0x9ea6ad, 0x8a9299, 0x6c747b, 0.3, 0.25, 0.0002, 0.5, 0.6},
 };

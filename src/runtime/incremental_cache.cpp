@@ -291,10 +291,8 @@ void IncrementalCache::endOperation(const ShareKey& key, uint32_t instruction, u
   operationCosts_[instruction].add(worth);
   if (!result || thrownAway_ || worth < kMuchWork) return;
   const auto hasOthers = [&](const Shape& s) { return s.attributes != result->attributes; };
-  if (hasOthers(result->shape) ||
-      std::ranges::any_of(result->children, hasOthers, &BlockChild::shape)) {
-    return;
-  }
+  const auto childHas = [&](const BlockChild& child) { return hasOthers(child.shape); };
+  if (hasOthers(result->shape) || std::ranges::any_of(result->children, childHas)) return;
   auto kept = std::make_shared<RecallOperation>();
   kept->key = key;
   kept->shape = keptShape(result->shape, 0);

@@ -4,10 +4,10 @@
 #include "studio/gallery.h"
 
 #include <filesystem>
-#include <sstream>
 
 #include "base/files.h"
 #include "base/json.h"
+#include "base/text.h"
 
 namespace gable::studio {
 
@@ -18,15 +18,15 @@ namespace {
 constexpr const char* kNotations[] = {"cga", "gbbg", "grammar", "park"};
 
 // The heading of a page and the first sentence below it.
-void readHead(const std::string& page, std::string& title, std::string& text) {
-  std::istringstream in(page);
-  for (std::string line; std::getline(in, line);) {
-    if (line.compare(0, 2, "# ") == 0) {
+void readHead(std::string_view page, std::string& title, std::string& text) {
+  for (std::string_view line; takeLine(page, line);) {
+    if (line.starts_with("# ")) {
       title = line.substr(2);
-    } else if (line.compare(0, 2, "![") == 0) {
+    } else if (line.starts_with("![")) {
       continue;  // The picture has a place of its own.
     } else if (!title.empty() && !line.empty()) {
-      text += (text.empty() ? "" : " ") + line;
+      if (!text.empty()) text += ' ';
+      text += line;
     } else if (!text.empty()) {
       break;
     }
@@ -37,13 +37,12 @@ void readHead(const std::string& page, std::string& title, std::string& text) {
 }
 
 // The first parts of the paths that a rule file imports: folders beside its own.
-std::vector<std::string> foldersImported(const std::string& rules) {
+std::vector<std::string> foldersImported(std::string_view rules) {
   std::vector<std::string> out;
-  std::istringstream in(rules);
-  for (std::string line; std::getline(in, line);) {
+  for (std::string_view line; takeLine(rules, line);) {
     const size_t from = line.find('"') + 1, to = line.find('/', from);
-    if (line.compare(0, 7, "import ") != 0 || from == 0 || to == std::string::npos) continue;
-    out.push_back(line.substr(from, to - from));
+    if (!line.starts_with("import ") || from == 0 || to == std::string_view::npos) continue;
+    out.emplace_back(line.substr(from, to - from));
   }
   return out;
 }

@@ -83,7 +83,7 @@ bool liesIn(const FlatFace& f, const Plane& plane) {
 }
 
 // Seen from above, about `origin`; false for what is no roof.
-bool flatten(const RoofFace& face, const Vec3& origin, double base, FlatFace& out) {
+bool flatten(const TopFace& face, const Vec3& origin, double base, FlatFace& out) {
   const Vec3 normal = ringNormal(face.rings[0]);
   const double size = length(normal);
   if (!(size > 0) || normal.z <= kSteepest * size) return false;
@@ -122,9 +122,9 @@ Region withoutDetails(const std::vector<Ring>& rings) {
   return out;
 }
 
-std::vector<Layer> layersOf(std::span<const RoofFace> faces, const Vec3& origin, double base) {
+std::vector<Layer> layersOf(std::span<const TopFace> faces, const Vec3& origin, double base) {
   std::vector<FlatFace> flat;
-  for (const RoofFace& f : faces) {
+  for (const TopFace& f : faces) {
     FlatFace one;
     if (!f.rings.empty() && flatten(f, origin, base, one)) flat.push_back(std::move(one));
   }
@@ -593,10 +593,10 @@ class ShellMaker {
 
 }  // namespace
 
-std::vector<BuildingShell> shellsOf(std::span<const RoofFace> faces, double base) {
+std::vector<BuildingShell> shellsOf(std::span<const TopFace> faces, double base) {
   // Kernels are exact near the origin.
   Vec3 origin;
-  for (const RoofFace& f : faces) {
+  for (const TopFace& f : faces) {
     if (f.rings.empty() || f.rings[0].empty()) continue;
     const Vec3& p = f.rings[0][0];
     origin = {std::floor(p.x), std::floor(p.y), std::floor(base)};

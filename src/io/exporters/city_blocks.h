@@ -21,7 +21,7 @@
 
 namespace gable {
 
-struct RoofFace {
+struct TopFace {
   /// The outer ring counter-clockwise as seen from above, holes clockwise.
   std::vector<std::vector<Vec3>> rings;
 };
@@ -43,7 +43,7 @@ struct BuildingShell {
 
 /// LoD 2.2. Faces that rise too steeply to be seen from above, and what is less than `kLeastRoof`
 /// above `base`, are no roofs. Empty where nothing is left.
-std::vector<BuildingShell> shellsOf(std::span<const RoofFace> faces, double base);
+std::vector<BuildingShell> shellsOf(std::span<const TopFace> faces, double base);
 constexpr double kLeastRoof = 1.5;
 
 /// LoD 1.2: a block of the same outline and the same volume.

@@ -13,12 +13,12 @@
 namespace gable {
 namespace {
 
-RoofFace face(std::vector<Vec3> ring) { return {{std::move(ring)}}; }
-RoofFace level(double x, double y, double w, double d, double z) {
+TopFace face(std::vector<Vec3> ring) { return {{std::move(ring)}}; }
+TopFace level(double x, double y, double w, double d, double z) {
   return face({{x, y, z}, {x + w, y, z}, {x + w, y + d, z}, {x, y + d, z}});
 }
 // Two slopes about a ridge along x.
-std::vector<RoofFace> gabled(double x, double y, double w, double d, double eaves, double ridge) {
+std::vector<TopFace> gabled(double x, double y, double w, double d, double eaves, double ridge) {
   return {
       face({{x, y, eaves}, {x + w, y, eaves}, {x + w, y + d / 2, ridge}, {x, y + d / 2, ridge}}),
       face({{x, y + d / 2, ridge},
@@ -89,8 +89,7 @@ TEST(CityBlocks, aGabledHouseIsOneClosedShell) {
 
 TEST(CityBlocks, theTopmostRoofIsSeenAndWallsStandBetweenHeights) {
   // A tower through a hall, whose floor slab below is covered.
-  std::vector<RoofFace> faces{level(0, 0, 20, 10, 6), level(5, 2, 4, 4, 15),
-                              level(0, 0, 20, 10, 3)};
+  std::vector<TopFace> faces{level(0, 0, 20, 10, 6), level(5, 2, 4, 4, 15), level(0, 0, 20, 10, 3)};
   const auto shells = shellsOf(faces, 0);
   ASSERT_EQ(shells.size(), 1u);
   EXPECT_TRUE(shells[0].closed);
@@ -101,9 +100,9 @@ TEST(CityBlocks, theTopmostRoofIsSeenAndWallsStandBetweenHeights) {
 
 TEST(CityBlocks, roofsThatCrossAreCutWhereTheyDo) {
   // A cross of two gabled wings of one height.
-  std::vector<RoofFace> faces = gabled(0, 6, 20, 8, 5, 9);
-  for (const RoofFace& f : gabled(0, 0, 20, 8, 5, 9)) {
-    RoofFace turned = f;
+  std::vector<TopFace> faces = gabled(0, 6, 20, 8, 5, 9);
+  for (const TopFace& f : gabled(0, 0, 20, 8, 5, 9)) {
+    TopFace turned = f;
     for (Vec3& p : turned.rings[0]) p = {-p.y + 14, p.x, p.z};
     faces.push_back(turned);
   }
@@ -117,18 +116,18 @@ TEST(CityBlocks, roofsThatCrossAreCutWhereTheyDo) {
 }
 
 TEST(CityBlocks, detailsAndWhatLiesOnTheGroundAreLeftOut) {
-  std::vector<RoofFace> faces{level(0, 0, 10, 10, 6), level(-0.4, 0, 0.4, 10, 4),
-                              level(20, 0, 10, 10, 0.2), level(3, 3, 0.5, 0.5, 8)};
+  std::vector<TopFace> faces{level(0, 0, 10, 10, 6), level(-0.4, 0, 0.4, 10, 4),
+                             level(20, 0, 10, 10, 0.2), level(3, 3, 0.5, 0.5, 8)};
   const auto shells = shellsOf(faces, 0);
   ASSERT_EQ(shells.size(), 1u);
   EXPECT_NEAR(shells[0].volume, 600, 1e-2);
   EXPECT_TRUE(shellsOf({}, 0).empty());
-  EXPECT_TRUE(shellsOf(std::vector<RoofFace>{face({{0, 0, 0}, {1, 0, 9}, {0, 0, 9}})}, 0).empty());
+  EXPECT_TRUE(shellsOf(std::vector<TopFace>{face({{0, 0, 0}, {1, 0, 9}, {0, 0, 9}})}, 0).empty());
 }
 
 TEST(CityBlocks, courtsAreHoles) {
-  std::vector<RoofFace> faces{level(0, 0, 20, 5, 6), level(0, 15, 20, 5, 6), level(0, 5, 5, 10, 7),
-                              level(15, 5, 5, 10, 7)};
+  std::vector<TopFace> faces{level(0, 0, 20, 5, 6), level(0, 15, 20, 5, 6), level(0, 5, 5, 10, 7),
+                             level(15, 5, 5, 10, 7)};
   const auto shells = shellsOf(faces, 1);
   ASSERT_EQ(shells.size(), 1u);
   EXPECT_TRUE(shells[0].closed);
@@ -139,17 +138,17 @@ TEST(CityBlocks, courtsAreHoles) {
 
 TEST(CityBlocks, outlinesThatTouchThemselvesGetANeck) {
   // A court whose corner is that of the outline, and a balcony that hangs at a corner.
-  const std::vector<std::vector<RoofFace>> plans{{level(0, 0, 20, 5, 6), level(0, 5, 5, 10, 6),
-                                                  level(0, 15, 15, 5, 6), level(15, 5, 5, 10, 6)},
-                                                 {level(0, 0, 10, 10, 6), level(10, 10, 2, 2, 4),
-                                                  level(9, 12, 3, 3, 6), level(9, 10, 1, 2, 5)}};
-  for (const std::vector<RoofFace>& faces : plans) {
+  const std::vector<std::vector<TopFace>> plans{{level(0, 0, 20, 5, 6), level(0, 5, 5, 10, 6),
+                                                 level(0, 15, 15, 5, 6), level(15, 5, 5, 10, 6)},
+                                                {level(0, 0, 10, 10, 6), level(10, 10, 2, 2, 4),
+                                                 level(9, 12, 3, 3, 6), level(9, 10, 1, 2, 5)}};
+  for (const std::vector<TopFace>& faces : plans) {
     const auto shells = shellsOf(faces, 0);
     ASSERT_EQ(shells.size(), 1u);
     EXPECT_TRUE(shells[0].closed);
     expectSound(shells[0]);
     double area = 0;
-    for (const RoofFace& f : faces) area += length(ringNormal(f.rings[0])) / 2;
+    for (const TopFace& f : faces) area += length(ringNormal(f.rings[0])) / 2;
     EXPECT_NEAR(shells[0].area, area, 0.02);
   }
 }
@@ -162,13 +161,13 @@ TEST(CityBlocks, anyRoofsMakeSoundShells) {
       const uint64_t h = hashCombine(seed, ++draws);
       return low + (high - low) * static_cast<double>(h >> 11) * 0x1.0p-53;
     };
-    std::vector<RoofFace> faces;
+    std::vector<TopFace> faces;
     for (int i = 0; i < 6; ++i) {
       const double x = draw(0, 20), y = draw(0, 20), w = draw(2, 14), d = draw(2, 14);
       const double eaves = draw(3, 9);
       if (draw(0, 1) < 0.3) faces.push_back(level(x, y, w, d, eaves));
       const double turn = draw(0, 1) < 0.5 ? 0 : draw(0, 1.5);
-      for (RoofFace f : gabled(x, y, w, d, eaves, eaves + draw(1, 5))) {
+      for (TopFace f : gabled(x, y, w, d, eaves, eaves + draw(1, 5))) {
         for (Vec3& p : f.rings[0]) {
           p = {p.x * (1 - turn * turn / 3) - p.y * turn, p.x * turn + p.y * (1 - turn * turn / 3),
                p.z};

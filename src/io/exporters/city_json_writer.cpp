@@ -358,12 +358,12 @@ CityJsonWriter::Bodies CityJsonWriter::bodiesOf(const CityContent& content) {
     if (!isBuildingKey(object.key)) continue;
     Body& body = out[&object];
     body.box = boxOf(object, content);
-    std::vector<RoofFace> roofs;
+    std::vector<TopFace> roofs;
     forEachLeafOf(object, content, [&](const Leaf& leaf, const Frame& world, const PlacedPart& p) {
       if (isOpening(p.kind) || p.kind == CityKind::Closure) return;
       faces_.forEach(leaf, world, [&](CityFace& face) {
         if (!(face.normal.y > 2 * kLeastFace)) return;
-        RoofFace& roof = roofs.emplace_back();
+        TopFace& roof = roofs.emplace_back();
         for (const std::vector<Vec3>& ring : face.rings) {
           std::vector<Vec3>& to = roof.rings.emplace_back();
           for (const Vec3& point : ring) to.push_back(upright(point));

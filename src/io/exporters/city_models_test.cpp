@@ -308,6 +308,28 @@ TEST(Ifc, elementsLieInStoreys) {
   EXPECT_NE(text.find("IFCPROPERTYSINGLEVALUE('floors',$,IFCREAL(2.),$)"), std::string::npos);
 }
 
+TEST(Ifc, equalElementsShareTheirShape) {
+  City c;
+  for (const double x : {0.0, 3.0, 6.0}) c.box("Glass", {x, 1, 0}, {1, 1.5, 0.1});
+  c.box("Glass", {9, 1, 0}, {1, 1.75, 0.1});
+  c.root("a", c.prototype("P"), testing::turned(20, {100, 2, -50}));
+  c.box("Glass", {0.3, 7, 0.1}, {1, 1.5, 0.1});
+  c.root("b", c.prototype("Q"), testing::turned(75, {1e5, 0, 1e5}));
+  // Whoever lies where no number reaches is left out, and spoils no other.
+  c.box("Glass", {2e9, 0, 0}, {1, 1.5, 0.1});
+  c.root("c", c.prototype("R"), Frame{});
+  const std::string path = inWritten("shared.ifc");
+  auto report = writeModel(c.scene, path, {});
+  ASSERT_TRUE(report.ok());
+  EXPECT_EQ(report->triangles, 12u * 5);
+  const std::string text = readFile(path).value();
+  EXPECT_EQ(countOf(text, "=IFCWINDOW("), 5u);
+  EXPECT_EQ(countOf(text, "=IFCTRIANGULATEDFACESET("), 2u);
+  EXPECT_EQ(countOf(text, "=IFCPRODUCTDEFINITIONSHAPE("), 2u);
+  // Two axes of each of both turns, of which one is upright.
+  EXPECT_EQ(countOf(text, "=IFCDIRECTION("), 3u);
+}
+
 TEST(Ifc, storeysHaveTheNamesThatRulesGive) {
   City c;
   c.box("Wall", {0, 0, 0}, {9, 3, 1}, c.says("cityStorey", "Ground floor"));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/hash.h"
 #include "base/number.h"
 #include "base/work.h"
 #include "io/exporters/city_faces.h"
@@ -122,6 +123,27 @@ void IfcShape::add(const Leaf& leaf, const Frame& world) {
   }
 }
 
+std::array<uint64_t, 2> IfcShape::hash() const {
+  std::array<uint64_t, 2> h{1, 2};
+  const auto fold = [&](uint64_t value) {
+    for (uint64_t& each : h) each = hashCombine(each, value);
+  };
+  for (const auto& [material, part] : parts_) {
+    if (part.triangles.empty()) continue;
+    work(part.points.size() + part.triangles.size());
+    fold(material);
+    fold(part.points.size());
+    for (const auto& p : part.points) {
+      for (const int64_t c : p) fold(static_cast<uint64_t>(c));
+    }
+    fold(part.triangles.size());
+    for (const auto& t : part.triangles) {
+      for (const uint32_t c : t) fold(c);
+    }
+  }
+  return h;
+}
+
 void IfcShape::clear() {
   parts_.clear();
   box_ = Box3{};
@@ -189,15 +211,32 @@ StepId IfcShapeWriter::representation(const IfcShape& shape) {
                    stepList(sets) + ")");
 }
 
-StepId ifcAxes(StepFile& file, const Frame& frame) {
-  const StepId at =
-      file.add("IFCCARTESIANPOINT(" + tripleText(upright(frame.origin), kDecimals) + ")");
-  if (!frame.turned) return file.add("IFCAXIS2PLACEMENT3D(" + stepRef(at) + ",$,$)");
-  // The z axis of what stands upright is y here.
+StepId IfcShapeWriter::definition(const IfcShape& shape) {
+  StepId& known = definitions_[shape.hash()];
+  if (!known) {
+    known = file_.add("IFCPRODUCTDEFINITIONSHAPE($,$,(" + stepRef(representation(shape)) + "))");
+  }
+  return known;
+}
+
+StepId IfcAxesWriter::direction(const Vec3& v) {
   constexpr int kOfDirections = 9;
-  const StepId z = file.add("IFCDIRECTION(" + tripleText(upright(frame.y), kOfDirections) + ")");
-  const StepId x = file.add("IFCDIRECTION(" + tripleText(upright(frame.x), kOfDirections) + ")");
-  return file.add("IFCAXIS2PLACEMENT3D(" + stepRef(at) + "," + stepRef(z) + "," + stepRef(x) + ")");
+  constexpr size_t kMostKept = 4096;
+  const std::string text = tripleText(upright(v), kOfDirections);
+  if (directions_.size() >= kMostKept) directions_.clear();
+  StepId& known = directions_[text];
+  if (!known) known = file_.add("IFCDIRECTION(" + text + ")");
+  return known;
+}
+
+StepId IfcAxesWriter::axes(const Frame& frame) {
+  const StepId at =
+      file_.add("IFCCARTESIANPOINT(" + tripleText(upright(frame.origin), kDecimals) + ")");
+  if (!frame.turned) return file_.add("IFCAXIS2PLACEMENT3D(" + stepRef(at) + ",$,$)");
+  // The z axis of what stands upright is y here.
+  const StepId z = direction(frame.y), x = direction(frame.x);
+  return file_.add("IFCAXIS2PLACEMENT3D(" + stepRef(at) + "," + stepRef(z) + "," + stepRef(x) +
+                   ")");
 }
 
 StepId ifcProperties(StepFile& file, const std::string& guid,

@@ -51,6 +51,9 @@ class IfcShape {
   /// A leaf at `world`, in a frame whose y axis points up.
   void add(const Leaf& leaf, const Frame& world);
   uint64_t triangleCount() const { return count_; }
+  /// Equal for shapes that are written as the same lines; different for others, as far as hashes
+  /// go.
+  std::array<uint64_t, 2> hash() const;
   /// In the frame of the shape, z up.
   const Box3& box() const { return box_; }
   /// By index into Scene::materials, ascending; kNoMaterial for none.
@@ -79,6 +82,8 @@ class IfcShapeWriter {
       : scene_(scene), file_(file), body_(body) {}
   /// An IfcShapeRepresentation of a shape that has triangles.
   StepId representation(const IfcShape& shape);
+  /// An IfcProductDefinitionShape of it, which all elements of equal shapes share.
+  StepId definition(const IfcShape& shape);
   /// An IfcMaterial of a material of the scene; 0 for none.
   StepId material(uint32_t material);
 
@@ -89,10 +94,21 @@ class IfcShapeWriter {
   StepFile& file_;
   StepId body_;
   std::map<uint32_t, StepId> styles_, materials_;
+  std::map<std::array<uint64_t, 2>, StepId> definitions_;
 };
 
-/// An IfcAxis2Placement3D of a frame whose y axis points up.
-StepId ifcAxes(StepFile& file, const Frame& frame);
+/// Writes placements. The directions of one facade are those of many elements.
+class IfcAxesWriter {
+ public:
+  explicit IfcAxesWriter(StepFile& file) : file_(file) {}
+  /// An IfcAxis2Placement3D of a frame whose y axis points up.
+  StepId axes(const Frame& frame);
+
+ private:
+  StepId direction(const Vec3& v);
+  StepFile& file_;
+  std::map<std::string, StepId> directions_;
+};
 
 /// An IfcPropertySet of attributes, of equal names the first; 0 where there are none.
 StepId ifcProperties(StepFile& file, const std::string& guid,

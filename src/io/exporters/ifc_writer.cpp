@@ -4,7 +4,9 @@
 // IFC4 (ISO 16739-1:2018, Reference View) as STEP text. An initial shape is a building; its leaves
 // are taken in path order, and those that follow each other, are of one kind and touch are one
 // element. A prototype that is of one kind and stands several times is an element for each place of
-// it, of one mapped shape. In memory are one element, and the numbers of those of a building.
+// it, of one mapped shape. An element lies in the frame of its first leaf, and those that are equal
+// there share their shape. In memory are one element, the numbers of those of a building, and a
+// number for each shape.
 //
 // Elements lie in the storeys of ifc_storeys.h.
 #include <algorithm>
@@ -42,6 +44,7 @@ class IfcWriter {
         options_(options),
         path_(path),
         file_(path),
+        axes_(file_),
         kinds_(scene),
         faces_(scene),
         triangles_(scene),
@@ -80,7 +83,8 @@ class IfcWriter {
     Box3 box;
     Vec3 size;
   };
-  void putElement(const Element& e, StepId representation, const Frame& frame);
+  /// `definition`: an IfcProductDefinitionShape in `frame`.
+  void putElement(const Element& e, StepId definition, const Frame& frame);
   std::string tailOf(CityKind kind, const Vec3& size) const;
   void relate(const char* relation, StepId parent, const std::vector<StepId>& children);
   std::string nameOf(uint32_t number) const {
@@ -91,6 +95,7 @@ class IfcWriter {
   const WriteOptions& options_;
   std::string path_;
   StepFile file_;
+  IfcAxesWriter axes_;
   CityParts kinds_;
   CityFaces faces_;
   TriangleCache triangles_;
@@ -116,7 +121,8 @@ class IfcWriter {
   IfcShape shape_;
   CityRun run_;
   Element open_;
-  Frame fromWorld_;
+  // Where the element lies, the way there from the world, and that to its first leaf.
+  Frame frame_, toFrame_, ownAxes_;
   Box3 ownBox_;
 };
 
@@ -143,7 +149,7 @@ void IfcWriter::writeHead() {
 }
 
 void IfcWriter::writeContext() {
-  identity_ = ifcAxes(file_, Frame{});
+  identity_ = axes_.axes(Frame{});
   const StepId context = file_.add("IFCGEOMETRICREPRESENTATIONCONTEXT($,'Model',3,1.E-05," +
                                    stepRef(identity_) + ",$)");
   body_ = file_.add("IFCGEOMETRICREPRESENTATIONSUBCONTEXT('Body','Model',*,*,*,*," +
@@ -276,23 +282,21 @@ std::string upperCase(std::string text) {
   return text;
 }
 
-void IfcWriter::putElement(const Element& e, StepId representation, const Frame& frame) {
+void IfcWriter::putElement(const Element& e, StepId definition, const Frame& frame) {
   const CityPart& part = e.part;
   Storey* storey = nullptr;
   if (isOfBuilding(part.kind) && !storeys_.empty()) storey = &storeys_[levels_.of(part, e.box)];
   const StepId around = storey ? storey->placement : sitePlacement_;
-  const StepId axes = frame == Frame{} ? identity_ : ifcAxes(file_, frame);
+  const StepId axes = frame == Frame{} ? identity_ : axes_.axes(frame);
   const StepId placement =
       file_.add("IFCLOCALPLACEMENT(" + stepRef(around) + "," + stepRef(axes) + ")");
-  const StepId shape =
-      file_.add("IFCPRODUCTDEFINITIONSHAPE($,$,(" + stepRef(representation) + "))");
   const CityKindSpec& spec = specOf(part.kind);
   const std::string type = part.object ? stepText(kinds_.text(part.object), kMostLabel)
                            : part.kind == CityKind::Unknown ? "$"
                                                             : std::string("'") + spec.name + "'";
   const StepId id =
       file_.add(upperCase(spec.ifc) + "(" + guid() + ",$," + nameOf(e.name) + ",$," + type + "," +
-                stepRef(placement) + "," + stepRef(shape) + ",$" + tailOf(part.kind, e.size));
+                stepRef(placement) + "," + stepRef(definition) + ",$" + tailOf(part.kind, e.size));
   (storey ? storey->elements : siteElements_).push_back(id);
   if (e.material < scene_.materials.size()) elementsOf_[e.material].push_back(id);
 }
@@ -303,10 +307,18 @@ void IfcWriter::endElement() {
     open_.material = shape_.parts().begin()->first;
     open_.box = run_.box();
     open_.size = ownBox_.size();
-    putElement(open_, shapes_->representation(shape_), Frame{});
+    putElement(open_, shapes_->definition(shape_), frame_);
   }
   shape_.clear();
   run_.end();
+}
+
+// Whether a place can be written.
+bool isNear(const Vec3& p) {
+  for (size_t a = 0; a < 3; ++a) {
+    if (!(std::fabs(p[a]) < kFarthestCity)) return false;
+  }
+  return true;
 }
 
 void IfcWriter::addLeaf(uint32_t index, const Frame& around, CityKind kindOfShape) {
@@ -323,13 +335,15 @@ void IfcWriter::addLeaf(uint32_t index, const Frame& around, CityKind kindOfShap
     run_.begins(part, box);
     open_.part = part;
     open_.name = leaf.name;
-    fromWorld_ = inverse(world);
+    frame_ = isNear(world.origin) ? world : Frame{};
+    ownAxes_ = inverse(world);
+    toFrame_ = inverse(frame_);
     ownBox_ = Box3{};
   } else {
     run_ = next;
   }
-  ownBox_.include(faces_.boxOf(leaf, fromWorld_ * world));
-  shape_.add(leaf, world);
+  ownBox_.include(faces_.boxOf(leaf, ownAxes_ * world));
+  shape_.add(leaf, toFrame_ * world);
 }
 
 const IfcWriter::Mapped& IfcWriter::mappedOf(uint32_t prototype) {
@@ -363,9 +377,10 @@ void IfcWriter::addInstance(const Instance& in, const Frame& world, const CityPa
       file_.add("IFCMAPPEDITEM(" + stepRef(mapped.map) + "," + stepRef(same_) + ")");
   const StepId shown = file_.add("IFCSHAPEREPRESENTATION(" + stepRef(body_) +
                                  ",'Body','MappedRepresentation',(" + stepRef(item) + "))");
+  const StepId definition = file_.add("IFCPRODUCTDEFINITIONSHAPE($,$,(" + stepRef(shown) + "))");
   putElement({part, scene_.prototypes[in.prototype].name, mapped.material,
               boundsAt(mapped.box, world, {1, 1, 1}), mapped.box.size()},
-             shown, world);
+             definition, world);
 }
 
 void IfcWriter::writeRoot(uint32_t number) {
