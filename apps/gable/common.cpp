@@ -211,11 +211,11 @@ void tellAtlas(const gable::WriteResult::Atlas& a) {
   const auto add = [&](uint32_t count, const char* what) {
     if (count > 0) why += (why.empty() ? "" : ", ") + std::to_string(count) + what;
   };
-  add(a.repeating, " repeat their pictures");
-  add(a.special, " have maps of their own");
-  add(a.large, " have no room in it");
-  note("the atlas has " + std::to_string(a.merged) + " materials as " + std::to_string(a.into) +
-       "; outside of it are " + why);
+  add(a.repeating, " that repeat their pictures");
+  add(a.special, " with maps of their own");
+  add(a.large, " that have no room in it");
+  note("the atlas joins " + std::to_string(a.merged) + " materials" + " to " +
+       std::to_string(a.into) + "; outside of it stay " + why);
 }
 
 }  // namespace

@@ -112,6 +112,11 @@ class Games(Case):
         self.assertIn("Yard-convcolonly", hull.names())
         self.assertAlmostEqual(hull.volume(hull.node("Yard-convcolonly")), 30 * 30 * 6, 1)
 
+    def testWhatStandsInForAShapeIsNotDrawn(self):
+        self.made("--for", "godot", "--lods", "1", "--lod-form", "names")
+        self.run_gable("render", "a.glb", "-o", "a.png", "--size", "64x48", "--samples", "2",
+                       says="collision shapes and coarser levels of detail, 8 in all, are left out")
+
     def testCollisionShapesEncloseTheirShape(self):
         for kind in ("box", "hull"):
             glb, _ = self.made("--names", "unique", "--instancing", "shapes", "--collision", kind)

@@ -9,6 +9,7 @@
 #include "base/work.h"
 #include "io/gltf_format.h"
 #include "io/importers/base64.h"
+#include "io/importers/stand_ins.h"
 #include "io/uri.h"
 
 namespace gable {
@@ -513,6 +514,14 @@ std::vector<GltfPlacement> GltfFile::placements() const {
     for (auto c = children.rbegin(); c != children.rend(); ++c) stack.push_back({index(*c), world});
   }
   return out;
+}
+
+size_t dropStandIns(std::vector<GltfPlacement>& placements) {
+  std::vector<std::string_view> names;
+  for (const GltfPlacement& p : placements) names.push_back(p.name);
+  const StandIns standIns(names);
+  return std::erase_if(placements,
+                       [&](const GltfPlacement& p) { return standIns.contains(p.name); });
 }
 
 }  // namespace gable

@@ -41,6 +41,9 @@ struct GltfPlacement {
   const JsonValue* extras = nullptr;
 };
 
+/// Takes away what stands in for something and is not drawn (stand_ins.h), and gives how many.
+size_t dropStandIns(std::vector<GltfPlacement>& placements);
+
 class GltfFile {
  public:
   static constexpr size_t kNone = ~size_t{0};
