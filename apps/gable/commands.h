@@ -139,6 +139,7 @@ struct DatasetArguments {
   uint32_t cameras = 4;
   /// Of gable::datasetCamerasNames(), datasetLabelsNames(), datasetFormatNames().
   std::string placing = "orbit", labels = "rule", format = "coco";
+  double zoom = 1;
   /// Of labels by tag.
   std::vector<std::string> tags;
   /// An extension of models, or "none".

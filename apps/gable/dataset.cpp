@@ -28,6 +28,7 @@ int datasetSettings(const DatasetArguments& a, gable::DatasetSettings& s) {
   s.count = a.count;
   s.cameras = a.cameras;
   s.placing = gable::datasetCamerasNamed(a.placing).value_or(s.placing);
+  s.zoom = a.zoom;
   s.labels = gable::datasetLabelsNamed(a.labels).value_or(s.labels);
   s.tags = a.tags;
   s.format = gable::datasetFormatNamed(a.format).value_or(s.format);

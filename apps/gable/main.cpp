@@ -515,6 +515,11 @@ void addDataset(CLI::App& app, DatasetArguments& a, int& status) {
                    "orbit (cameras evenly around the model, default) or sampled (each by chance)")
       ->check(CLI::IsMember(gable::datasetCamerasNames()));
   command
+      ->add_option("--zoom", a.zoom,
+                   "How much nearer than the whole, by the lens: 2 shows half of its width "
+                   "(default 1)")
+      ->check(number({0.1, 100}));
+  command
       ->add_option("--labels", a.labels,
                    "What pixels are: rule (that made them, default), label (the @Label of the "
                    "nearest rule above), or tag (the last that a shape above was given)")

@@ -53,6 +53,9 @@ struct DatasetSettings {
   uint64_t count = 1;
   uint32_t cameras = 4;
   DatasetCameras placing = DatasetCameras::Orbit;
+  /// So many times nearer a longer lens brings what cameras look at, whose whole fits a picture at 1;
+  /// from a tenth to a hundred.
+  double zoom = 1;
   DatasetLabels labels = DatasetLabels::Rule;
   /// Of DatasetLabels::Tag: the categories in this order; where a shape is given several, the first
   /// one counts. A tag's name or its beginning by dots; ? stands for one part, * for some. Empty:

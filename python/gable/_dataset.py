@@ -43,6 +43,7 @@ def dataset(
     cameras: int = 4,
     seed: float = 0,
     placing: str = "orbit",
+    zoom: float = 1,
     labels: str = "rule",
     tags: Sequence[str] = (),
     format: str = "coco",
@@ -63,7 +64,7 @@ def dataset(
 ) -> Dataset:
     """Makes labelled pictures of `count` seeds, from `seed` on, by `cameras` cameras each.
 
-    `placing` of cameras is "orbit" or "sampled"; `labels` are by "rule", "label" (@Label) or
+    `placing` of cameras is "orbit" or "sampled"; `zoom` 2 shows half of what 1 does; `labels` are by "rule", "label" (@Label) or
     "tag", of which `tags` names those that count, the first ones first; the `format` of the list is
     "coco" or "json"; `model` is the extension of the mesh of each seed, or
     None; `lighting` is by "paths" or "direct", which is many times faster. What is in the folder already is kept, so that a call that was stopped goes on, and other
@@ -83,6 +84,7 @@ def dataset(
         "tags": list(tags),
         "count": count,
         "cameras": cameras,
+        "zoom": float(zoom),
         "seed": float(seed),
         "model": model,
         "width": size[0],

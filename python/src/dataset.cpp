@@ -41,6 +41,7 @@ DatasetSettings settingsOf(const py::dict& options) {
   set(s.count, options, "count");
   set(s.cameras, options, "cameras");
   setWord(s.placing, options, "placing", &datasetCamerasNamed);
+  set(s.zoom, options, "zoom");
   setWord(s.labels, options, "labels", &datasetLabelsNamed);
   set(s.tags, options, "tags");
   setWord(s.format, options, "format", &datasetFormatNamed);

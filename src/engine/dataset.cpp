@@ -31,6 +31,9 @@ std::optional<Error> mistakeIn(const DatasetSettings& s) {
   if (s.cameras < 1 || s.cameras > 100'000) {
     return wrong("a seed has 1 to 100000 cameras", "correct their number");
   }
+  if (!(s.zoom >= 0.1 && s.zoom <= 100)) {
+    return wrong("a lens brings things a tenth to a hundred times nearer", "correct the zoom");
+  }
   if (s.shard && (s.shard->of < 1 || s.shard->index >= s.shard->of)) {
     return wrong("a shard is one of as many as there are", "the first of four is 0 of 4");
   }

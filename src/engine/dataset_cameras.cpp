@@ -27,21 +27,19 @@ uint64_t addressOf(double seed, uint64_t camera) {
   return hashCombine(hashCombine(hashBytes("dataset"), hashDouble(seed)), camera);
 }
 
-// Aims the camera of a picture at a part of it, with a longer lens.
-void aim(PictureSettings& p, const PictureData::Pose& pose, uint64_t address) {
-  const auto draw = [&](Draw what, double lo, double hi) {
-    return randomIn(hashCombine(address, what), lo, hi);
-  };
+// Aims the camera of a picture at a part of it, by shares of half its sides from the middle, with a
+// lens that brings it so many times nearer.
+void aim(PictureSettings& p, const PictureData::Pose& pose, double right, double above,
+         double zoom) {
   const double aspect = static_cast<double>(p.width) / p.height;
-  const double across = kAimShare * draw(kAcross, -1, 1) * pose.halfWidth;
-  const double up = kAimShare * draw(kUp, -1, 1) * pose.halfWidth / aspect;
+  const double across = right * pose.halfWidth, up = above * pose.halfWidth / aspect;
   PictureSettings::Camera camera;
   camera.eye = pose.eye;
   for (size_t k = 0; k < 3; ++k) {
     camera.target[k] = pose.eye[k] + pose.forward[k] + across * pose.right[k] + up * pose.up[k];
   }
   p.camera = camera;
-  p.fieldOfView = 2 * atanDeg(pose.halfWidth / draw(kZoom, 1, kMostZoom));
+  p.fieldOfView = 2 * atanDeg(pose.halfWidth / zoom);
   p.turn = 0;
 }
 
@@ -61,12 +59,20 @@ PictureSettings pictureOf(const PictureMaker& maker, const DatasetSettings& sett
   if (settings.placing == DatasetCameras::Orbit) {
     p.turn = 360 * (camera + randomUnit(hashCombine(all, kTurn))) / settings.cameras;
     if (!p.pitch) p.pitch = randomIn(hashCombine(all, kPitch), kLowOrbit, kHighOrbit);
+    if (settings.zoom == 1) return p;
+    if (const auto pose = maker.pose(p)) aim(p, *pose, 0, 0, settings.zoom);
     return p;
   }
   p.turn = randomIn(hashCombine(own, kTurn), 0, 360);
   if (!p.pitch) p.pitch = randomIn(hashCombine(own, kPitch), kLowSample, kHighSample);
   // Where there is none, drawing tells why.
-  if (const auto pose = maker.pose(p)) aim(p, *pose, own);
+  if (const auto pose = maker.pose(p)) {
+    const auto draw = [&](Draw what, double lo, double hi) {
+      return randomIn(hashCombine(own, what), lo, hi);
+    };
+    const double right = kAimShare * draw(kAcross, -1, 1), above = kAimShare * draw(kUp, -1, 1);
+    aim(p, *pose, right, above, settings.zoom * draw(kZoom, 1, kMostZoom));
+  }
   return p;
 }
 

@@ -172,6 +172,7 @@ std::string descriptionOf(const Rules& rules, const Shapes& shapes, const Catego
   w.field("shapes", checksumText(checksumOf(shapes)));
   writeDerive(w, s.derive);
   w.field("cameras", s.cameras).field("placing", static_cast<int>(s.placing));
+  w.field("zoom", s.zoom);
   w.field("labels", static_cast<int>(s.labels)).field("list", static_cast<int>(s.format));
   w.key("tags").beginArray();
   for (const std::string& tag : s.tags) w.value(tag);

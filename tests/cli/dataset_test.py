@@ -208,6 +208,17 @@ class Dataset(Case):
             self.assertLess(item["camera"]["halfWidth"], 0.4664)
             self.assertNotIn("model", item)
 
+    def testZoomBringsTheModelNearer(self):
+        self.make("a", "--count", "1", "--model", "none")
+        self.make("b", "--count", "1", "--model", "none", "--zoom", "2")
+        for camera in ("00", "01"):
+            items = [json.loads((self.folder / f / "000000" / camera / "item.json").read_text()) for f in ("a", "b")]
+            self.assertEqual(items[0]["camera"]["eye"], items[1]["camera"]["eye"])
+            self.assertAlmostEqual(2 * items[0]["intrinsics"][0][0], items[1]["intrinsics"][0][0])
+            seen = [sum(n > 0 for row in numbers(self.folder / f / "000000" / camera / "semantic.png") for n in row) for f in ("a", "b")]
+            self.assertGreater(seen[1], 1.8 * seen[0])
+        self.make("b", "--count", "1", "--model", "none", "--zoom", "3", status=USAGE, says="'zoom': 2, and now 3")
+
     def testOtherSettingsAreRefused(self):
         self.make("a")
         for option, value, says in (("--samples", "2", "'samples': 1, and now 2"), ("--cameras", "3", "'cameras': 2, and now 3"),
@@ -223,7 +234,7 @@ class Dataset(Case):
 
     def testWrongOptionsAreTold(self):
         for option in (["--count", "0"], ["--count", "nan"], ["--cameras", "0"], ["--placing", "line"], ["--labels", "colour"],
-                       ["--format", "yolo"], ["--model", "doc"], ["--shard", "2/2"], ["--shard", "1"], ["--pitch", "91"],
+                       ["--format", "yolo"], ["--model", "doc"], ["--shard", "2/2"], ["--shard", "1"], ["--pitch", "91"], ["--zoom", "0"],
                        ["--size", "0x4"], ["--seed", "x"]):
             self.make("a", *option, status=USAGE, says=option[0])
         self.assertFalse((self.folder / "a").exists())
