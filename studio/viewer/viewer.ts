@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // A page that shows the tileset beside it: drag to turn, right drag to move, wheel to come nearer,
-// click for what something is. It asks for nothing but the tiles.
+// click for what something is, Home or the button for the whole place. It asks for nothing but the
+// tiles.
 
 import {
   AmbientLight,
@@ -32,6 +33,7 @@ const ERROR = Number(new URLSearchParams(location.search).get('error') ?? 8);
 
 const told = document.querySelector<HTMLElement>('#told');
 const panel = document.querySelector<HTMLElement>('#feature');
+const whole = document.querySelector<HTMLButtonElement>('#whole');
 
 /** From the frame of the tileset to metres with y up, about the place itself. */
 async function framed(url: string): Promise<Matrix4> {
@@ -74,6 +76,7 @@ class Viewer {
   private changed = true;
   private loading = false;
   private loaded = 0;
+  private shown = 0;
   private failures = 0;
 
   constructor(
@@ -99,12 +102,20 @@ class Viewer {
     });
     tiles.addEventListener('tiles-load-start', () => (this.loading = true));
     tiles.addEventListener('tiles-load-end', () => (this.loading = false));
-    tiles.addEventListener('tile-visibility-change', () => (this.changed = true));
+    tiles.addEventListener('tile-visibility-change', ({ visible }) => {
+      this.shown += visible ? 1 : -1;
+      this.changed = true;
+      this.tell();
+    });
     this.controls.addEventListener('change', () => (this.changed = true));
     this.controls.maxPolarAngle = 0.49 * Math.PI;
     document.body.prepend(this.renderer.domElement);
     addEventListener('resize', () => this.resize());
     this.renderer.domElement.addEventListener('click', (e) => this.pick(e));
+    whole?.addEventListener('click', () => this.place());
+    addEventListener('keydown', (e) => {
+      if (e.key === 'Home') this.place();
+    });
     this.resize();
     this.renderer.setAnimationLoop(() => this.draw());
   }
@@ -112,7 +123,7 @@ class Viewer {
   private tell() {
     if (!told) return;
     const failed = this.failures > 0 ? `, ${this.failures} could not be read` : '';
-    told.textContent = `${this.loaded} tiles${failed}`;
+    told.textContent = `${this.shown} tiles${failed}`;
     told.dataset.loaded = String(this.loaded);
     told.dataset.failed = String(this.failures);
   }
@@ -141,6 +152,9 @@ class Viewer {
     this.camera.position
       .copy(ball.center)
       .add(new Vector3(0, 0.75, 1).setLength(ball.radius * 1.7));
+    // Farther out is nothing to see, and no way back.
+    this.controls.minDistance = ball.radius / 500;
+    this.controls.maxDistance = ball.radius * 6;
     this.camera.near = Math.max(ball.radius / 2000, 0.1);
     this.camera.far = ball.radius * 20;
     this.camera.updateProjectionMatrix();
