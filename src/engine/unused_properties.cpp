@@ -6,6 +6,7 @@
 #include "engine/unused_properties.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <string_view>
 
@@ -42,20 +43,22 @@ std::set<std::string_view> propertiesOf(const Shapes::Impl& shapes) {
   return names;
 }
 
-// The attributes that no property sets.
-std::vector<std::string_view> unsetOf(const Rules::Impl& rules,
-                                      const std::set<std::string>& settable) {
-  std::vector<std::string_view> unset;
+// What shapes can set in the main file.
+std::vector<std::string_view> attributesOf(const Rules::Impl& rules) {
+  std::vector<std::string_view> out;
   for (const AttributeCode& a : rules.program.attributes) {
     const bool main = a.name.find('.') == std::string::npos;
-    if (main && !a.constant && !a.hidden && !settable.count(a.name)) unset.push_back(a.name);
+    if (main && !a.constant && !a.hidden) out.push_back(a.name);
   }
-  return unset;
+  return out;
 }
 
-std::string nearAttribute(const std::string& name, const std::vector<std::string_view>& unset) {
+// `unset`: the attributes that no property sets. What differs in its capitals alone is a slip also
+// where another shape has it right.
+std::string nearAttribute(const std::string& name, const std::vector<std::string_view>& attributes,
+                          const std::vector<std::string_view>& unset) {
   const std::string plain = letters(name);
-  for (const std::string_view attribute : unset) {
+  for (const std::string_view attribute : attributes) {
     if (letters(attribute) == plain) return std::string(attribute);
   }
   return name.size() < kShortest ? std::string() : nearestName(name, unset);
@@ -77,12 +80,15 @@ DiagnosticList unusedProperties(const Shapes::Impl& shapes, const Rules::Impl& r
   const std::set<std::string_view> properties = propertiesOf(shapes);
   std::set<std::string> names;
   for (const std::string_view name : properties) names.insert(identifierOf(std::string(name)));
-  const std::vector<std::string_view> unset = unsetOf(rules, names);
+  const std::vector<std::string_view> attributes = attributesOf(rules);
+  std::vector<std::string_view> unset;
+  std::copy_if(attributes.begin(), attributes.end(), std::back_inserter(unset),
+               [&](std::string_view a) { return !names.contains(std::string(a)); });
   DiagnosticList notes;
   for (const std::string_view property : properties) {
     const std::string name = identifierOf(std::string(property));
     const bool reaches = rules.program.findAttribute(name) >= 0 || rules.open.count(name) > 0;
-    const std::string near = reaches ? std::string() : nearAttribute(name, unset);
+    const std::string near = reaches ? std::string() : nearAttribute(name, attributes, unset);
     if (near.empty() || notes.size() == kMostNotes) continue;
     notes.push_back(
         diagnosticOf({Severity::Note,

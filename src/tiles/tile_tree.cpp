@@ -35,7 +35,7 @@ constexpr double kMargin = kMostQuantized;
 // A coarse model with too many triangles is made anew, coarser by at least so much, so often at
 // most.
 constexpr double kCoarser = 2;
-constexpr int kMostCoarser = 4;
+constexpr int kMostCoarser = 6;
 
 double toleranceOf(const TileSquare& square) { return square.side / kFineness; }
 

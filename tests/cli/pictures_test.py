@@ -61,7 +61,7 @@ class Pictures(Case):
             self.run_gable("render", rules, "--lot", "10x8", "--view", view, "--size", "64x36", "--samples", "1", "-o", "a.png")
 
     def testTheSunOfAPlaceNeedsAPlace(self):
-        self.draw("a.png", "--sun-at", "2024-06-21,12", status=FILE, says="[picture-settings]")
+        self.draw("a.png", "--sun-at", "2024-06-21,12", status=USAGE, says="[picture-settings]")
         noon = self.draw("noon.png", "--sun-at", "48.86,2.35,2024-06-21,13:50+02:00")
         self.assertEqual(noon, self.draw("same.png", "--sun-at", "48.86,2.35,2024-06-21,11:50Z"))
         self.assertNotEqual(noon, self.draw("night.png", "--sun-at", "48.86,2.35,2024-06-21,01:00"))

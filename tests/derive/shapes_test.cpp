@@ -81,6 +81,7 @@ TEST(Shapes, propertiesThatSetNothingAreToldWhereTheyLookLikeASlip) {
   };
   EXPECT_EQ(notes(R"({"hieght":3})"), "unused-property did you mean 'height'?; ");
   EXPECT_EQ(notes(R"({"Height":3})"), "unused-property did you mean 'height'?; ");
+  EXPECT_EQ(notes(R"({"height":3,"HEIGHT":4})"), "unused-property did you mean 'height'?; ");
   // Nobody misses what another property sets, and most of a map means nothing to the rules.
   EXPECT_EQ(notes(R"({"height":3,"hieght":3,"name":"a","lis":1,"source":"survey"})"), "");
 }
