@@ -27,6 +27,8 @@ constexpr double kFull = 0.5, kShown = 7.0 / 8;
 constexpr double kAlike = 0.12;
 // Rules can make larger ones.
 constexpr double kMostArea = 1e12;
+// Cells of a plate along each of its sides: what turns out to be shown was looked through in vain.
+constexpr int64_t kLongest = 128;
 // A rectangle has at least such a share of cells that need it.
 constexpr double kNeeded = 0.25;
 
@@ -43,7 +45,7 @@ struct Sheet {
   double offset = 0;
 };
 
-// Covered square metres of a cell.
+// Covered shares of a cell.
 struct Cover {
   double narrow = 0, large = 0;
   /// Of the narrow ones, by cover.
@@ -59,8 +61,8 @@ class PlaneGrid {
       : model_(model), sheets_(sheets), tolerance_(tolerance) {}
 
   void run(Plates& out) {
-    first_ = sheetOfNarrow();
-    if (!first_) return;
+    main_ = largestNarrow();
+    if (!main_) return;
     chooseFrame();
     measure();
     if (!isWide()) return;
@@ -70,8 +72,8 @@ class PlaneGrid {
   }
 
  private:
-  // The largest, whose axes the grid has; null where all are large parts.
-  const Sheet* sheetOfNarrow() const {
+  // The largest narrow one, whose axes the grid has; null where all are large parts.
+  const Sheet* largestNarrow() const {
     const Sheet* out = nullptr;
     double most = -1;
     for (const Sheet& s : sheets_) {
@@ -85,10 +87,10 @@ class PlaneGrid {
 
   const CoarsePart& partOf(const Sheet& s) const { return model_.parts[s.part]; }
 
-  // The axes of the first narrow part. Faces know where they look by the z of their scope, so those
-  // without thickness say where the front is.
+  // The axes of the largest narrow part. Faces know where they look by the z of their scope, so
+  // those without thickness say where the front is.
   void chooseFrame() {
-    const CoarsePart& p = partOf(*first_);
+    const CoarsePart& p = partOf(*main_);
     const size_t across = thinnestOf(p.box.size());
     double front = 0;
     for (const Sheet& s : sheets_) {
@@ -98,7 +100,7 @@ class PlaneGrid {
       front += std::min(faceArea(box), kMostArea) *
                dot(s.normal, axisOf(partOf(s).frame, thinnestOf(size)));
     }
-    Vec3 z = first_->normal, x = axisOf(p.frame, (across + 1) % 3);
+    Vec3 z = main_->normal, x = axisOf(p.frame, (across + 1) % 3);
     if (front < 0) z = z * -1;
     frame_ = Frame::of(p.frame.point(p.box.center()), x, cross(z, x), z);
   }
@@ -241,16 +243,16 @@ class PlaneGrid {
              std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) <= kAlike;
     };
     Rectangle r{from.second, from.first, 1, 1};
-    while (isFree(r.y, r.x + r.width)) ++r.width;
-    for (; isFree(r.y, r.x - 1); ++r.width) --r.x;
+    while (r.width < kLongest && isFree(r.y, r.x + r.width)) ++r.width;
+    for (; r.width < kLongest && isFree(r.y, r.x - 1); ++r.width) --r.x;
     const auto rowIsFree = [&](int64_t y) {
       for (int64_t x = r.x; x < r.x + r.width; ++x) {
         if (!isFree(y, x)) return false;
       }
       return true;
     };
-    while (rowIsFree(r.y + r.height)) ++r.height;
-    for (; rowIsFree(r.y - 1); ++r.height) --r.y;
+    while (r.height < kLongest && rowIsFree(r.y + r.height)) ++r.height;
+    for (; r.height < kLongest && rowIsFree(r.y - 1); ++r.height) --r.y;
     return r;
   }
 
@@ -300,12 +302,12 @@ class PlaneGrid {
 
   CoarsePart plateOf(const Rectangle& r) const {
     CoarsePart p;
-    p.feature = partOf(*first_).feature;
+    p.feature = partOf(*main_).feature;
     Cover sum;
     for (int64_t y = r.y; y < r.y + r.height; ++y) {
       for (int64_t x = r.x; x < r.x + r.width; ++x) add(sum, {y, x});
     }
-    p.color = sum.narrow > 0 ? sum.color * (1 / sum.narrow) : partOf(*first_).color;
+    p.color = sum.narrow > 0 ? sum.color * (1 / sum.narrow) : partOf(*main_).color;
     p.frame = frame_;
     const auto at = [&](size_t i, int64_t cell) {
       return reach_.min[i] + side_[i] * static_cast<double>(cell);
@@ -319,12 +321,12 @@ class PlaneGrid {
   const CoarseModel& model_;
   std::span<const Sheet> sheets_;
   double tolerance_;
-  const Sheet* first_ = nullptr;
+  const Sheet* main_ = nullptr;
   Frame frame_;
   Box3 reach_;
   double depth_ = 0;
   std::array<double, 2> count_{}, side_{};
-  /// By row and column; Cover in shares of a cell.
+  /// By row and column.
   std::map<Cell, Cover> cells_;
   /// Those of rectangles.
   std::set<Cell> owned_;

@@ -29,8 +29,8 @@ double faceArea(const Box3& box);
 Vec3 axisOf(const Frame& frame, size_t axis);
 
 struct Plate {
-  /// A rectangle: a box without thickness across its z, which points where the first of its parts
-  /// does. It has no triangles yet. Its colour is the mean of the narrow parts that it stands for.
+  /// A rectangle: a box without thickness across its z, which points where its parts look. It
+  /// has no triangles yet. Its colour is the mean of the narrow parts that it stands for.
   CoarsePart part;
   /// How far the farthest of what it stands for is from its plane, in metres.
   double offset = 0;
