@@ -28,6 +28,7 @@ the importing file by an attribute of the same name, or from outside by `--set s
 may be left out.
 """
 HEADER = re.compile(r"/\*(.*?)\*/", re.S)
+ANNOTATIONS = re.compile(r"^(?:@\w+(?:\([^()]*\))?\s*)+")
 RULE = re.compile(r"^([A-Z]\w*)(?:\((.*?)\))?\s*-->")
 ATTRIBUTE = re.compile(r"^attr\s+(\w+)\s*=\s*(.+)$")
 IMPORT = re.compile(r'^import\s+(\w+)\s*:\s*"([^"]+)"', re.M)
@@ -36,7 +37,7 @@ IMPORT = re.compile(r'^import\s+(\w+)\s*:\s*"([^"]+)"', re.M)
 def comments_above(lines, at):
     """The lines of `//` right above lines[at], annotations between them left out; lines that rule off sections are none."""
     out = []
-    while at > 0 and lines[at - 1].startswith(("//", "@")):
+    while at > 0 and (lines[at - 1].startswith("//") or lines[at - 1] and not ANNOTATIONS.sub("", lines[at - 1])):
         at -= 1
         text = lines[at].removeprefix("//").strip()
         if lines[at].startswith("//") and not text.startswith("---"):
@@ -71,7 +72,7 @@ def section(path, text, called):
         if match := ATTRIBUTE.match(line):
             value, _, beside = match[2].partition("//")
             attributes.append((f"`{match[1]}`", f"`{value.strip()}`", beside.strip()))
-        elif (match := RULE.match(line)) and match[1] not in seen and (comment or match[1] in called):
+        elif (match := RULE.match(ANNOTATIONS.sub("", line))) and match[1] not in seen and (comment or match[1] in called):
             seen.add(match[1])
             rules.append((f"`{match[1]}{parameters(match[2])}`", comment))
     out = f"## {path.name}\n\n"

@@ -194,7 +194,7 @@ class RuleLibraryTest(FolderCase):
         rules.mkdir(parents=True)
         (rules / "things.cga").write_text(
             '/* Things of\n   a street. */\nattr tone = "#ff0000" // Of the cloth.\n// ---- What hangs ----\n'
-            "// As wide as\n// the wall.\n@StartRule\nAwning(out, tone = 3) --> X.\nHidden --> X.\nStand --> Hidden\n")
+            "// As wide as\n// the wall.\n@StartRule\n@Label(\"awning\") Awning(out, tone = 3) --> X.\nHidden --> X.\n@Label(\"x\") Stand --> Hidden\n")
         (self.root / "examples/other.cga").write_text('import t : "/gable/rules/things.cga"\nLot --> t.Stand\n')
         text = rule_library.rule_library(self.root)
         self.assertIn("## things.cga\n\nThings of a street.\n", text)
