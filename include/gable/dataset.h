@@ -53,8 +53,8 @@ struct DatasetSettings {
   uint64_t count = 1;
   uint32_t cameras = 4;
   DatasetCameras placing = DatasetCameras::Orbit;
-  /// So many times nearer a longer lens brings what cameras look at, whose whole fits a picture at 1;
-  /// from a tenth to a hundred.
+  /// So many times nearer a longer lens brings what cameras look at, whose whole fits a picture at
+  /// 1; from a tenth to a hundred.
   double zoom = 1;
   DatasetLabels labels = DatasetLabels::Rule;
   /// Of DatasetLabels::Tag: the categories in this order; where a shape is given several, the first
