@@ -53,6 +53,8 @@ struct DerivationTrace {
     bool leaf = false, dropped = false;
     /// Made by a rule call, so that a step of the derivation replaces it.
     bool ruleCall = false;
+    /// Of those: the rule, an index into Rules::rules(). Rules of two files may have one name.
+    std::optional<uint32_t> rule;
     /// Index into tagSets: what all faces of the shape were tagged with, as it was made and while
     /// its rule worked on it outside of blocks.
     uint32_t tags = 0;

@@ -16,14 +16,13 @@ namespace gable {
 
 namespace {
 
-// The labels of rules that have one.
-std::map<std::string, std::string> labelsOf(const Rules& rules) {
-  std::map<std::string, std::string> out;
+// By rule, as Rules::rules() has them: its label, or nothing.
+std::vector<std::string> labelsOf(const Rules& rules) {
+  std::vector<std::string> out;
   for (const RuleInfo& rule : rules.rules()) {
+    std::string& label = out.emplace_back();
     for (const AttributeInfo::Annotation& note : rule.annotations) {
-      if (note.name == "Label" && !note.arguments.empty()) {
-        out[rule.name] = note.arguments[0].second;
-      }
+      if (note.name == "Label" && !note.arguments.empty()) label = note.arguments[0].second;
     }
   }
   return out;
@@ -98,7 +97,8 @@ Result<Categories> categoriesOf(const Rules& rules, const DatasetSettings& setti
       for (const RuleInfo& rule : rules.rules()) names.insert(rule.name);
       break;
     case DatasetLabels::Label:
-      for (const auto& [rule, label] : labelsOf(rules)) names.insert(label);
+      for (const std::string& label : labelsOf(rules)) names.insert(label);
+      names.erase("");
       break;
     case DatasetLabels::Tag: names = tagsNamedBy(rules.impl().program); break;
   }
@@ -182,15 +182,13 @@ Labeller::Labeller(const Rules& rules, const Categories& categories, DatasetLabe
 }
 
 std::vector<uint32_t> Labeller::labelled(const Rules& rules, const DerivationTrace& trace) const {
-  const std::map<std::string, std::string> labels = labelsOf(rules);
-  std::vector<uint32_t> idOfName;
-  for (const std::string& name : trace.names) {
-    const auto label = labels.find(name);
-    idOfName.push_back(label == labels.end() ? 0 : ids_.at(label->second));
+  std::vector<uint32_t> idOfRule;
+  for (const std::string& label : labelsOf(rules)) {
+    idOfRule.push_back(label.empty() ? 0 : ids_.at(label));
   }
   std::vector<uint32_t> out;
   for (const DerivationTrace::Node& node : trace.nodes) {
-    out.push_back(node.ruleCall ? idOfName[node.name] : 0);
+    out.push_back(node.rule ? idOfRule[*node.rule] : 0);
   }
   return out;
 }

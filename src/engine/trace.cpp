@@ -89,7 +89,8 @@ DerivationTrace traceOf(const DeriveResult& result, const Program& program,
     setFrame(out, n);
     out.leaf = n.leaf;
     out.dropped = n.dropped;
-    out.ruleCall = n.ruleCall;
+    out.ruleCall = n.rule != TraceNode::kNone;
+    if (out.ruleCall) out.rule = n.rule;
     out.tags = n.tags;
     const auto numberOf = [&](uint32_t index) -> std::optional<uint32_t> {
       const bool known = index != TraceNode::kNone && n.initialShape + 1 < first.size();

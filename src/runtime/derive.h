@@ -85,8 +85,9 @@ struct TraceNode {
   Vec3 size;
   bool leaf = false;
   bool dropped = false;
-  /// Made by a rule call: there is a step of the derivation that replaces it.
-  bool ruleCall = false;
+  /// Of a shape that a rule call made, which a step of the derivation replaces: index into
+  /// Program::rules. Names without modules do not tell rules apart.
+  uint32_t rule = kNone;
   /// What all faces of the shape were tagged with, as it was made and while its rule worked on it
   /// outside of blocks. While deriving a set of the tag table, in the result an index into
   /// DeriveResult::traceTags.

@@ -88,7 +88,7 @@ void Machine::traceShape(Activation& a, uint32_t parentNode, const Instruction* 
   }
   const RuleCode& rule = program_.rules[a.rule];
   const Span& span = at ? program_.spans[pcOf(at)] : rule.span;
-  a.traceNode = tracer_.addCall(traced(a.shape, parentNode, rule.name, span));
+  a.traceNode = tracer_.addCall(traced(a.shape, parentNode, rule.name, span), a.rule);
   if (!tracer_.tracesShapes()) return;
   Shape asMade = a.shape;
   if (isDeformed(asMade)) bakeDeformation(asMade);

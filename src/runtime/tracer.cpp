@@ -35,8 +35,8 @@ TraceNode& Tracer::add(const Made& made) {
   return node;
 }
 
-uint32_t Tracer::addCall(const Made& made) {
-  add(made).ruleCall = true;
+uint32_t Tracer::addCall(const Made& made, uint32_t rule) {
+  add(made).rule = rule;
   return static_cast<uint32_t>(nodes_.size() - 1);
 }
 

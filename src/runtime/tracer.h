@@ -48,7 +48,7 @@ class Tracer {
     uint32_t tags = 0;
   };
   /// A rule is called on it. Gives the node's number.
-  uint32_t addCall(const Made& made);
+  uint32_t addCall(const Made& made, uint32_t rule);
   /// It is a leaf of a block slot, or of a name without a rule. `leafIndex` may be kNone.
   void addLeaf(const Made& made, uint32_t leafIndex);
   /// The rule made nothing, so its shape is the leaf.

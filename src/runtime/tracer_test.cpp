@@ -31,30 +31,30 @@ class TracerTest : public testing::Test {
 };
 
 TEST_F(TracerTest, KeepsTheTree) {
-  const uint32_t lot = tracer.addCall(made(kNone, 1));
-  const uint32_t wall = tracer.addCall(made(lot, 2));
+  const uint32_t lot = tracer.addCall(made(kNone, 1), 0);
+  const uint32_t wall = tracer.addCall(made(lot, 2), 0);
   tracer.addLeaf(made(wall, 3), 5);
-  const uint32_t roof = tracer.addCall(made(lot, 4));
+  const uint32_t roof = tracer.addCall(made(lot, 4), 0);
   tracer.endAsLeaf(roof, 6);
-  const uint32_t gone = tracer.addCall(made(lot, 5));
+  const uint32_t gone = tracer.addCall(made(lot, 5), 0);
   tracer.drop(gone);
   ASSERT_EQ(tracer.size(), 5u);
   const std::vector<TraceNode>& nodes = tracer.nodes();
   EXPECT_EQ(nodes[wall].parent, lot);
-  EXPECT_TRUE(nodes[wall].ruleCall);
+  EXPECT_EQ(nodes[wall].rule, 0u);
   EXPECT_FALSE(nodes[wall].leaf);
   EXPECT_EQ(nodes[2].parent, wall);
   EXPECT_TRUE(nodes[2].leaf);
-  EXPECT_FALSE(nodes[2].ruleCall);
+  EXPECT_EQ(nodes[2].rule, kNone);
   EXPECT_EQ(nodes[2].leafIndex, 5u);
   EXPECT_TRUE(nodes[roof].leaf);
-  EXPECT_TRUE(nodes[roof].ruleCall);
+  EXPECT_EQ(nodes[roof].rule, 0u);
   EXPECT_TRUE(nodes[gone].dropped);
 }
 
 TEST_F(TracerTest, AnAttributeIsNotedOnceARule) {
-  const uint32_t lot = tracer.addCall(made(kNone, 1));
-  const uint32_t wall = tracer.addCall(made(lot, 2));
+  const uint32_t lot = tracer.addCall(made(kNone, 1), 0);
+  const uint32_t wall = tracer.addCall(made(lot, 2), 0);
   tracer.noteAttribute(lot, 0, Value::of(3.0));
   tracer.noteAttribute(lot, 1, Value::of(4.0));
   tracer.noteAttribute(lot, 0, Value::of(3.0));
@@ -65,7 +65,7 @@ TEST_F(TracerTest, AnAttributeIsNotedOnceARule) {
 }
 
 TEST_F(TracerTest, NotesWhatWasDrawnChosenAndHandedOver) {
-  const uint32_t lot = tracer.addCall(made(kNone, 1));
+  const uint32_t lot = tracer.addCall(made(kNone, 1), 0);
   RuleCode rule;
   rule.parameters = {{program.pool->intern("deep"), ValueType::Float}};
   const Value deep = Value::of(7.0);
@@ -83,16 +83,16 @@ TEST_F(TracerTest, NotesWhatWasDrawnChosenAndHandedOver) {
 }
 
 TEST_F(TracerTest, NotesEnd) {
-  const uint32_t lot = tracer.addCall(made(kNone, 1));
+  const uint32_t lot = tracer.addCall(made(kNone, 1), 0);
   for (size_t i = 0; i < Tracer::kMostNotes + 10; ++i) tracer.noteChoice(lot, Span{}, {});
   EXPECT_EQ(tracer.notes().size(), Tracer::kMostNotes);
 }
 
 TEST_F(TracerTest, FollowsLeavesThatAreGathered) {
-  const uint32_t before = tracer.addCall(made(kNone, 1));
+  const uint32_t before = tracer.addCall(made(kNone, 1), 0);
   tracer.endAsLeaf(before, 3);
   const size_t from = tracer.size();
-  const uint32_t shown = tracer.addCall(made(before, 2));
+  const uint32_t shown = tracer.addCall(made(before, 2), 0);
   tracer.showShape(shown, 10);
   tracer.addLeaf(made(shown, 3), 11);
   tracer.addLeaf(made(shown, 4), 12);
@@ -121,10 +121,10 @@ TEST_F(TracerTest, FiltersByRuleAndPath) {
 
 TEST_F(TracerTest, FiltersByLevel) {
   options.traceFilter.depth = 1;
-  const uint32_t lot = tracer.addCall(made(kNone, 1));
+  const uint32_t lot = tracer.addCall(made(kNone, 1), 0);
   ASSERT_TRUE(tracer.reachesBelow(kNone));
   ASSERT_TRUE(tracer.reachesBelow(lot));
-  const uint32_t wall = tracer.addCall(made(lot, 2));
+  const uint32_t wall = tracer.addCall(made(lot, 2), 0);
   EXPECT_FALSE(tracer.reachesBelow(wall));
   EXPECT_FALSE(tracer.reachesBelow(TraceNode::kCut));
   tracer.noteDraw(TraceNode::kCut, {}, "rand", Value::of(1.0));

@@ -177,6 +177,15 @@ class Dataset(Case):
         self.assertEqual(len(count["house"]), 3)
         self.assertEqual(len(count["window"]), 12)
 
+    def testLabelsOfImportedRulesAreTheirOwn(self):
+        # Both files have a rule Window: the one of the main file has no label.
+        self.put("lib.cga", '@Label("tank") Tank --> s(3, 3, 3) primitiveCube() Skin.\n@Label("pane") Window --> s(1, 2, 1) primitiveCube() Skin.\n')
+        self.put("x.cga", 'import lib : "lib.cga"\n@StartRule @Label("house") Lot --> extrude(3) comp(f) { top : Top | side : Wall. }\n'
+                          'Top --> [ lib.Tank ] [ t(6, 0, 0) lib.Window ] t(12, 0, 0) Window\nWindow --> s(2, 2, 2) primitiveCube() Skin.\n')
+        self.make("a", "--labels", "label", "--cameras", "6", "--count", "1")
+        count = self.check("a", ["house", "pane", "tank"])
+        self.assertEqual({name: len(instances) for name, instances in count.items()}, {"house": 1, "pane": 1, "tank": 1})
+
     def testLabelsByTagAreThoseOfTheNearestTaggedShape(self):
         self.put("x.cga", TAGGED)
         self.make("a", "--labels", "tag", "--cameras", "6", "--count", "1")
