@@ -40,6 +40,10 @@ constexpr double kFlat = 0.25;
 constexpr double kAlong = 0.7;
 // Colours that are the same have so many steps.
 constexpr double kTints = 1024;
+// A part with so many triangles cannot be simpler.
+constexpr uint32_t kSimple = 2;
+// Anchors of a cell that are looked at.
+constexpr size_t kMostAnchors = 16;
 // A part with more triangles is known by its box alone.
 constexpr uint32_t kMostMeasured = 64;
 
@@ -112,17 +116,6 @@ double distance2(const Vec3& p, const std::array<Vec3, 3>& t) {
   const double h = dot(p - t[0], n);
   return h * h / n2;
 }
-
-// A colour and how much of it there is.
-struct Tint {
-  Vec3 sum;
-  double weight = 0;
-  void add(const Vec3& color, double area) {
-    sum += color * area;
-    weight += area;
-  }
-  Vec3 mean(const Vec3& otherwise) const { return weight > 0 ? sum * (1 / weight) : otherwise; }
-};
 
 class Coarsener {
  public:
@@ -203,7 +196,7 @@ class Coarsener {
       for (; tries < bearers.size(); ++tries, at = at + 1 < bearers.size() ? at + 1 : 0) {
         work();
         const CoarsePart& bearer = *bearers[at].part;
-        if (within && !isBefore(bearer, center)) continue;
+        if (within && !isBefore(bearer, p, corners)) continue;
         if (distanceTo(bearer, corners, tolerance_) > tolerance_) continue;
         if (!within || isAlong(bearer, p, center)) break;
       }
@@ -218,26 +211,39 @@ class Coarsener {
     return rest;
   }
 
-  // Whether a point lies in a part, or across one of its faces: not beside a thin one in its plane.
-  bool isBefore(const CoarsePart& part, const Vec3& point) const {
-    const Vec3 p = part.frame.toLocal(point), size = part.box.size();
+  // Whether a part lies in another, or across one of its faces: not beside a thin one in its plane,
+  // and not as a wall below a roof.
+  bool isBefore(const CoarsePart& bearer, const CoarsePart& part,
+                const std::array<Vec3, 8>& corners) const {
+    Box3 reach;
+    for (const Vec3& c : corners) reach.include(bearer.frame.toLocal(c));
+    const Vec3 size = bearer.box.size();
     const double slack = tolerance_ / 64;
-    size_t beyond = 0, thin = 0;
+    const bool hasThin = std::min({size.x, size.y, size.z}) < tolerance_;
+    const Vec3 facing = axisOf(part.frame, thinnestOf(part.box.size()));
+    size_t beyond = 0;
     for (size_t i = 0; i < 3; ++i) {
-      const bool isBeyond = p[i] < part.box.min[i] - slack || p[i] > part.box.max[i] + slack;
-      const bool isThin = size[i] < tolerance_;
-      if (isThin) ++thin;
-      if (isBeyond && !isThin) ++beyond;
+      const bool isWithin =
+          reach.min[i] >= bearer.box.min[i] - slack && reach.max[i] <= bearer.box.max[i] + slack;
+      if (isWithin) continue;
+      if (hasThin && size[i] < tolerance_) continue;
+      const bool isAcross =
+          !isSheet(part) || std::abs(dot(axisOf(bearer.frame, i), facing)) > kAlong;
+      if (hasThin || !isAcross || ++beyond > 1) return false;
     }
-    return beyond <= (thin > 0 ? 0u : 1u);
+    return true;
+  }
+
+  static bool isSheet(const CoarsePart& part) {
+    const Vec3 size = part.box.size();
+    return std::min({size.x, size.y, size.z}) <= kFlat * widthOf(part.box);
   }
 
   // A sheet does not lie on a surface that it stands on edge to: the walls at a corner, those under
   // a roof.
   bool isAlong(const CoarsePart& bearer, const CoarsePart& part, const Vec3& center) const {
-    const Vec3 size = part.box.size();
-    const size_t across = thinnestOf(size);
-    if (size[across] > kFlat * widthOf(part.box)) return true;
+    if (!isSheet(part)) return true;
+    const size_t across = thinnestOf(part.box.size());
     const std::optional<Vec3> normal = normalNear(bearer, center);
     return normal && std::abs(dot(*normal, axisOf(part.frame, across))) > kAlong;
   }
@@ -279,8 +285,7 @@ class Coarsener {
     for (const Bearer& b : bearers) {
       Tint& tint = out[keyOf(b.part->color)];
       tint.add(b.part->color, b.part->area);
-      tint.sum += b.tint.sum;
-      tint.weight += b.tint.weight;
+      tint.add(b.tint);
     }
     return out;
   }
@@ -375,10 +380,10 @@ class Coarsener {
     part.firstVertex = static_cast<uint32_t>(out_.vertices.size());
     part.firstTriangle = static_cast<uint32_t>(out_.triangles.size());
     part.vertexCount = part.triangleCount = 0;
-    fixed_.resize(out_.vertices.size(), false);
+    corners_.resize(out_.vertices.size(), Corner::Joined);
     addSheet(part, along, wide, thin);
     if (s[thin] > kFlat * s[wide]) addSheet(part, along, thin, wide);
-    fixed_.resize(out_.vertices.size(), true);
+    corners_.resize(out_.vertices.size(), Corner::Free);
     out_.parts.push_back(part);
     missed_ = std::max(missed_, std::sqrt(s[wide] * s[wide] + s[thin] * s[thin]) / 2);
   }
@@ -411,7 +416,6 @@ class Coarsener {
 
   // The box of a part in the place of its triangles; its underside is never seen.
   void addBox(CoarsePart part) {
-    fixed_.resize(out_.vertices.size(), false);
     part.firstVertex = static_cast<uint32_t>(out_.vertices.size());
     part.firstTriangle = static_cast<uint32_t>(out_.triangles.size());
     part.vertexCount = 8;
@@ -431,20 +435,43 @@ class Coarsener {
     out_.parts.push_back(part);
   }
 
-  // Corners of one cell become their mean.
+  // Rectangles and triangles keep their corners: joining would make nothing simpler, and equal
+  // windows unequal.
+  void markAnchors() {
+    for (const CoarsePart& p : out_.parts) {
+      if (p.triangleCount > kSimple) continue;
+      for (uint32_t v = p.firstVertex; v < p.firstVertex + p.vertexCount; ++v) {
+        if (corners_[v] == Corner::Joined) corners_[v] = Corner::Anchor;
+      }
+    }
+  }
+
+  // Corners of one cell become the nearest anchor of it, or else their mean.
   void join() {
     struct Sum {
       Vec3 first, sum;
       double count = 0;
+      std::vector<Vec3> anchors;
+      Vec3 target(const Vec3& from) const {
+        if (anchors.empty()) return first + sum * (1 / count);
+        return *std::min_element(anchors.begin(), anchors.end(), [&](const Vec3& a, const Vec3& b) {
+          return length(a - from) < length(b - from);
+        });
+      }
     };
     std::unordered_map<Cell, Sum, CellHash> cells;
-    std::vector<Sum*> cellOfVertex(out_.vertices.size());
-    fixed_.resize(out_.vertices.size(), false);
+    std::vector<Sum*> cellOfVertex(out_.vertices.size(), nullptr);
+    corners_.resize(out_.vertices.size(), Corner::Joined);
+    markAnchors();
     for (size_t v = 0; v < out_.vertices.size(); ++v) {
       work();
-      if (fixed_[v]) continue;
+      if (corners_[v] == Corner::Free) continue;
       const Vec3& p = out_.vertices[v];
       Sum& s = cells[cellOf(p, side_)];
+      if (corners_[v] == Corner::Anchor) {
+        if (s.anchors.size() < kMostAnchors) s.anchors.push_back(p);
+        continue;
+      }
       if (s.count == 0) s.first = p;
       // Differences to the first, so that equal corners stay what they are.
       s.sum += p - s.first;
@@ -452,11 +479,10 @@ class Coarsener {
       cellOfVertex[v] = &s;
     }
     for (size_t v = 0; v < out_.vertices.size(); ++v) {
-      if (fixed_[v]) continue;
-      const Sum& s = *cellOfVertex[v];
-      const Vec3 mean = s.first + s.sum * (1 / s.count);
-      shift_ = std::max(shift_, length(mean - out_.vertices[v]));
-      out_.vertices[v] = mean;
+      if (!cellOfVertex[v]) continue;
+      const Vec3 target = cellOfVertex[v]->target(out_.vertices[v]);
+      shift_ = std::max(shift_, length(target - out_.vertices[v]));
+      out_.vertices[v] = target;
     }
     dropFlat();
   }
@@ -518,8 +544,9 @@ class Coarsener {
   const CoarseModel& from_;
   double tolerance_, side_;
   CoarseModel out_;
-  /// By vertex: whether it stays where it is.
-  std::vector<bool> fixed_;
+  /// Of a vertex: it is joined with others, stays where it is, or stays and draws others to it.
+  enum class Corner : uint8_t { Joined, Free, Anchor };
+  std::vector<Corner> corners_;
   double missed_ = 0, shift_ = 0;
 };
 

@@ -254,6 +254,54 @@ TEST(Coarse, wallsOfStripsAreClosedAroundWindows) {
   }
 }
 
+// Whether a point of the front is before or behind something, at most `depth` away, or in a slit of
+// twice the `slack`.
+bool isClosedAt(const CoarseModel& m, double x, double y, double depth, double slack) {
+  return std::any_of(m.parts.begin(), m.parts.end(), [&](const CoarsePart& p) {
+    Box3 box;
+    for (uint32_t v = 0; v < p.vertexCount; ++v) box.include(m.vertices[p.firstVertex + v]);
+    return x >= box.min.x - slack && x <= box.max.x + slack && y >= box.min.y - slack &&
+           y <= box.max.y + slack && box.min.z <= depth && box.max.z >= -depth;
+  });
+}
+
+// Floors and bays of many sizes, with sills, and a cornice: every level is a wall without holes.
+TEST(Coarse, levelsOfAFrontHaveNoHoles) {
+  for (const double width : {11.0, 13.0, 15.0, 18.0, 24.0}) {
+    Place place;
+    const int bays = static_cast<int>(std::round((width - 1.6) / 2.8)), floors = 5;
+    const double bay = (width - 1.6) / bays, high = 3.1, side = (bay - 1.3) / 2;
+    for (int floor = 0; floor < floors; ++floor) {
+      const double y = floor * high;
+      place.add({0, y, 0}, {0.8, high, 0});
+      place.add({width - 0.8, y, 0}, {0.8, high, 0});
+      for (int i = 0; i < bays; ++i) {
+        const double x = 0.8 + i * bay;
+        place.add({x, y, 0}, {side, high, 0});
+        place.add({x + side + 1.3, y, 0}, {side, high, 0});
+        place.add({x + side, y, 0}, {1.3, 0.9, 0});
+        place.add({x + side, y + 0.9, 0}, {1.3, 0.12, 0.12});
+        place.add({x + side, y + 1.02, -0.15}, {1.3, 1.6, 0}, 1);
+        place.add({x + side, y + 2.62, 0}, {1.3, high - 2.62, 0});
+      }
+    }
+    place.add({-0.2, floors * high, 0}, {width + 0.4, 0.4, 0.3});
+    for (const double tolerance : {0.3, 0.45, 0.65, 1.0}) {
+      CoarseModel m = place.coarse(tolerance);
+      for (const double coarser : {0.0, 2.5}) {
+        if (coarser > 0) m = coarsened(m, coarser * tolerance);
+        for (double x = 0.07; x < width; x += 0.31) {
+          for (double y = 0.07; y < floors * high; y += 0.29) {
+            ASSERT_TRUE(isClosedAt(m, x, y, 2.5 * tolerance, tolerance / 4))
+                << width << " wide, " << tolerance << " and " << coarser << ", at " << x << " "
+                << y;
+          }
+        }
+      }
+    }
+  }
+}
+
 // A wall with windows on it is one wall: nothing is put behind it.
 TEST(Coarse, wallsThatAreLargeGetNoPlate) {
   Place place;

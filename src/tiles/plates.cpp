@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
@@ -29,6 +30,8 @@ constexpr double kAlike = 0.12;
 constexpr double kMostArea = 1e12;
 // Cells of a plate along each of its sides: what turns out to be shown was looked through in vain.
 constexpr int64_t kLongest = 128;
+// A large part is brought before a plate that would hide so much of it.
+constexpr double kHidden = 0.25;
 // A rectangle has at least such a share of cells that need it.
 constexpr double kNeeded = 0.25;
 
@@ -48,8 +51,8 @@ struct Sheet {
 // Covered shares of a cell.
 struct Cover {
   double narrow = 0, large = 0;
-  /// Of the narrow ones, by cover.
-  Vec3 color;
+  /// Of what a plate shows here.
+  Tint tint;
 };
 
 using Cell = std::pair<int64_t, int64_t>;
@@ -153,6 +156,16 @@ class PlaneGrid {
   }
 
   void cover(const Sheet& s) {
+    forEachCell(s, [&](const Cell& at, double share) {
+      Cover& cell = cells_[at];
+      (s.isLarge ? cell.large : cell.narrow) += share;
+      if (!s.isLarge) cell.tint.add(partOf(s).color, share);
+    });
+  }
+
+  // The cells under a sheet, each with the share that it covers.
+  template <class Visit>
+  void forEachCell(const Sheet& s, const Visit& visit) const {
     const CoarsePart& p = partOf(s);
     const Box3 box = inPlane(p);
     const Vec3 size = box.size();
@@ -172,10 +185,7 @@ class PlaneGrid {
         work();
         const double wide = std::min(to[0], x + 1) - std::max(from[0], x);
         const double high = std::min(to[1], y + 1) - std::max(from[1], y);
-        Cover& cell = cells_[{static_cast<int64_t>(y), static_cast<int64_t>(x)}];
-        const double share = filled * wide * high;
-        (s.isLarge ? cell.large : cell.narrow) += share;
-        if (!s.isLarge) cell.color += p.color * share;
+        visit(Cell{static_cast<int64_t>(y), static_cast<int64_t>(x)}, filled * wide * high);
       }
     }
   }
@@ -217,18 +227,16 @@ class PlaneGrid {
   // The mean of the narrow parts in a cell and around it: windows and the wall between them are one
   // colour, the house beside may have another.
   Vec3 colorAround(const Cell& at) const {
-    Cover sum;
+    Tint sum;
     for (int64_t y = -1; y <= 1; ++y) {
       for (int64_t x = -1; x <= 1; ++x) add(sum, {at.first + y, at.second + x});
     }
-    return sum.narrow > 0 ? sum.color * (1 / sum.narrow) : Vec3{};
+    return sum.mean({});
   }
 
-  void add(Cover& sum, const Cell& at) const {
+  void add(Tint& sum, const Cell& at) const {
     const auto found = cells_.find(at);
-    if (found == cells_.end()) return;
-    sum.narrow += found->second.narrow;
-    sum.color += found->second.color;
+    if (found != cells_.end()) sum.add(found->second.tint);
   }
 
   // As far to the sides as cells are at least of a kind and of a colour, then as far up and down.
@@ -288,26 +296,63 @@ class PlaneGrid {
     for (const Sheet& s : sheets_) {
       const Box3 box = inPlane(partOf(s));
       if (!isOnPlate(box)) continue;
-      if (s.isLarge) {
-        // Just before the plate: windows in their reveals.
-        const double forward = depth_ + tolerance_ / 64 - box.min.z;
-        if (forward > 0) out.moves[s.number] = frame_.z * forward;
-        continue;
-      }
+      if (s.isLarge) continue;
       out.taken[s.number] = true;
       offset = std::max({offset, std::abs(box.min.z - depth_), std::abs(box.max.z - depth_)});
     }
+    bringForward(hiddenParts(), out);
     for (const Rectangle& r : rectangles_) out.plates.push_back({plateOf(r), offset});
+  }
+
+  // The large parts of which plates would hide much: windows in their reveals. Of others a plate
+  // takes on the colour of what it hides.
+  std::vector<const Sheet*> hiddenParts() {
+    std::vector<const Sheet*> out;
+    for (const Sheet& s : sheets_) {
+      if (!s.isLarge) continue;
+      double whole = 0, hidden = 0;
+      std::vector<std::pair<Cell, double>> cells;
+      forEachCell(s, [&](const Cell& at, double share) {
+        whole += share;
+        if (!owned_.contains(at)) return;
+        hidden += share;
+        cells.emplace_back(at, share);
+      });
+      if (hidden > 0 && hidden >= kHidden * whole) {
+        out.push_back(&s);
+        continue;
+      }
+      for (const auto& [at, share] : cells) cells_[at].tint.add(partOf(s).color, share);
+    }
+    return out;
+  }
+
+  // To just before the plates, in the order in which they lie.
+  void bringForward(const std::vector<const Sheet*>& parts, Plates& out) const {
+    const double gap = tolerance_ / 64, most = depth_ + 2 * gap;
+    std::vector<double> depths;
+    for (const Sheet* s : parts) depths.push_back(inPlane(partOf(*s)).min.z);
+    double low = most, high = -std::numeric_limits<double>::infinity();
+    for (const double z : depths) {
+      low = std::min(low, z);
+      if (z < most) high = std::max(high, z);
+    }
+    for (size_t i = 0; i < parts.size(); ++i) {
+      if (depths[i] >= most) continue;
+      const double place = high > low ? (depths[i] - low) / (high - low) : 0;
+      const double forward = depth_ + gap * (1 + place) - depths[i];
+      if (forward > 0) out.moves[parts[i]->number] = frame_.z * forward;
+    }
   }
 
   CoarsePart plateOf(const Rectangle& r) const {
     CoarsePart p;
     p.feature = partOf(*main_).feature;
-    Cover sum;
+    Tint sum;
     for (int64_t y = r.y; y < r.y + r.height; ++y) {
       for (int64_t x = r.x; x < r.x + r.width; ++x) add(sum, {y, x});
     }
-    p.color = sum.narrow > 0 ? sum.color * (1 / sum.narrow) : partOf(*main_).color;
+    p.color = sum.mean(partOf(*main_).color);
     p.frame = frame_;
     const auto at = [&](size_t i, int64_t cell) {
       return reach_.min[i] + side_[i] * static_cast<double>(cell);

@@ -19,6 +19,21 @@
 
 namespace gable {
 
+/// A colour and how much of it there is.
+struct Tint {
+  Vec3 sum;
+  double weight = 0;
+  void add(const Vec3& color, double area) {
+    sum += color * area;
+    weight += area;
+  }
+  void add(const Tint& other) {
+    sum += other.sum;
+    weight += other.weight;
+  }
+  Vec3 mean(const Vec3& otherwise) const { return weight > 0 ? sum * (1 / weight) : otherwise; }
+};
+
 /// The axis along which a box is thinnest, the first of equal ones.
 size_t thinnestOf(const Vec3& size);
 
