@@ -124,8 +124,14 @@ class City(Case):
         self.put("own/city.cga", "@StartRule Ground --> Flat.\nBuilding --> X.\nStreetLmp --> X.\nTree --> X.\n")
         told = self.city("map.geojson", "--rules", "own", "-o", "own.obj", says="a city calls no rule 'StreetLmp' [city-rule]")
         self.assertNotIn("'Tree'", told)
+        # Names that an import has right are slips in the file all the same, and so are attributes.
+        self.put("own/city.cga", 'import city : "/gable/rules/city.cga"\nattr building_level = 0\n@StartRule Ground --> X.\n'
+                                 "Building --> extrude(building_level) X.\nBulding --> X.\n")
+        told = self.city("map.geojson", "--rules", "own", "-o", "own.obj", says="a city calls no rule 'Bulding': it begins with 'Building'")
+        self.assertIn("sets the attribute 'building_level': no shape has it [city-attribute]", told)
+        self.assertIn("did you mean 'building_levels'?", told)
         # Those that come with Gable have one for everything.
-        for code in ("city-rule", "unused-rule"):
+        for code in ("city-rule", "unused-rule", "city-attribute"):
             self.assertNotIn(code, self.city("map.geojson", "-o", "all.obj"))
 
     def testReportsOfRulesAreTables(self):
