@@ -26,9 +26,11 @@ size_t errorsIn(const Diagnostics& diagnostics) {
 std::optional<Error> asOtherNotation(const std::string& path, const Sources& sources, uint32_t file,
                                      lang::FileLoader& loader, const Diagnostics& asCga) {
   // So many times fewer mistakes make it another notation.
-  constexpr size_t kFewer = 4;
+  constexpr size_t kFewer = 4, kManyForCga = 8;
   const size_t errors = errorsIn(asCga);
-  if (errors == 0 || dialectOfPath(path) || path.ends_with(".cga")) return std::nullopt;
+  if (errors == 0 || dialectOfPath(path)) return std::nullopt;
+  // A name that says CGA is believed for longer.
+  if (path.ends_with(".cga") && errors < kManyForCga) return std::nullopt;
   const Dialect* nearest = nullptr;
   size_t least = (errors + kFewer - 1) / kFewer;
   for (const Dialect* d : dialects()) {

@@ -11,7 +11,7 @@
 
 namespace gable {
 
-/// What to say of a text with mistakes as CGA whose name does not tell its notation, when it reads
+/// What to say of a text with mistakes as CGA, many of them if it is called so, when it reads
 /// as one of the others: without mistakes, or with far fewer. Code: rules-notation.
 std::optional<Error> asOtherNotation(const std::string& path, const Sources& sources, uint32_t file,
                                      lang::FileLoader& loader, const Diagnostics& asCga);

@@ -404,6 +404,7 @@ class Lexer {
                     : std::string("a byte that is no text has no meaning here"),
           typographic          ? "use the straight quotes \" and '"
           : sign == "\xc2\xb0" ? "remove it: angles are in degrees"
+          : sign == "?"        ? "choose by case: case a > 2: 10 else: 5"
                                : "remove it");
     // One report for a whole run of such bytes.
     at_ += length;

@@ -99,6 +99,11 @@ class Options(Case):
         for text in ("Lot -> extrude(3) X.", "Lot --> extrude(3 X.\nA --> B.", "words and words", "{", "a\nb\nc\n"):
             self.put("x.txt", text)
             self.assertNotIn("rules-notation", self.run_gable("check", "x.txt", status=WRONG))
+        # A name that says CGA is believed while the mistakes are few.
+        self.put("x.cga", (root / "examples/gbbg/gbbg.gbbg").read_text())
+        self.assertEqual(self.run_gable("check", "x.cga", status=WRONG, says="--dialect gbbg").count("error: "), 1)
+        self.put("x.cga", "START -> A(1)\n")
+        self.assertNotIn("rules-notation", self.run_gable("check", "x.cga", status=WRONG))
         self.put("x.cga", "Lot --> X.")
         self.run_gable("convert", "x.cga", says="is CGA already")
 
