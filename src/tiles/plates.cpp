@@ -9,7 +9,6 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -48,11 +47,18 @@ struct Sheet {
   double offset = 0;
 };
 
+// What a cell needs: nothing, as it is not full; nothing, as large parts show it; a plate.
+enum class Kind : uint8_t { Empty, Shown, Needed };
+
 // Covered shares of a cell.
 struct Cover {
   double narrow = 0, large = 0;
-  /// Of what a plate shows here.
+  /// Of what a plate shows here, and here and in the cells around.
   Tint tint;
+  Vec3 around;
+  Kind kind = Kind::Empty;
+  /// Of a rectangle.
+  bool isOwned = false;
 };
 
 using Cell = std::pair<int64_t, int64_t>;
@@ -70,6 +76,7 @@ class PlaneGrid {
     measure();
     if (!isWide()) return;
     for (const Sheet& s : sheets_) cover(s);
+    judgeCells();
     findRectangles();
     emit(out);
   }
@@ -200,14 +207,18 @@ class PlaneGrid {
     return area;
   }
 
-  enum class Kind : uint8_t { Empty, Shown, Needed };
-
-  Kind kindOf(const Cell& at) const {
-    const auto found = cells_.find(at);
-    if (found == cells_.end()) return Kind::Empty;
-    const Cover& c = found->second;
+  static Kind kindOf(const Cover& c) {
     if (c.narrow + c.large < kFull) return Kind::Empty;
     return c.large >= kShown || !(c.narrow > 0) ? Kind::Shown : Kind::Needed;
+  }
+
+  // Once a cell: rectangles ask for it many times.
+  void judgeCells() {
+    for (auto& [at, c] : cells_) {
+      work();
+      c.kind = kindOf(c);
+      if (c.kind == Kind::Needed) c.around = colorAround(at);
+    }
   }
 
   struct Rectangle {
@@ -218,7 +229,7 @@ class PlaneGrid {
   void findRectangles() {
     for (const auto& [at, c] : cells_) {
       work();
-      if (kindOf(at) != Kind::Needed || owned_.contains(at)) continue;
+      if (c.kind != Kind::Needed || c.isOwned) continue;
       const Rectangle whole = grown(at, Kind::Shown);
       claim(shareOf(whole) >= kNeeded ? whole : grown(at, Kind::Needed));
     }
@@ -241,13 +252,15 @@ class PlaneGrid {
 
   // As far to the sides as cells are at least of a kind and of a colour, then as far up and down.
   Rectangle grown(const Cell& from, Kind least) const {
-    const Vec3 color = colorAround(from);
+    const Vec3 color = cells_.at(from).around;
     const auto isFree = [&](int64_t y, int64_t x) {
       work();
-      const Kind kind = kindOf({y, x});
-      if (kind < least || owned_.contains({y, x})) return false;
-      const Vec3 d = colorAround({y, x}) - color;
-      return kind == Kind::Shown ||
+      const auto found = cells_.find({y, x});
+      if (found == cells_.end()) return false;
+      const Cover& c = found->second;
+      if (c.kind < least || c.isOwned) return false;
+      const Vec3 d = c.around - color;
+      return c.kind == Kind::Shown ||
              std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) <= kAlike;
     };
     Rectangle r{from.second, from.first, 1, 1};
@@ -269,7 +282,7 @@ class PlaneGrid {
     for (int64_t y = r.y; y < r.y + r.height; ++y) {
       for (int64_t x = r.x; x < r.x + r.width; ++x) {
         work();
-        if (kindOf({y, x}) == Kind::Needed) ++needed;
+        if (cells_.at({y, x}).kind == Kind::Needed) ++needed;
       }
     }
     return needed / (static_cast<double>(r.width) * static_cast<double>(r.height));
@@ -277,9 +290,14 @@ class PlaneGrid {
 
   void claim(const Rectangle& r) {
     for (int64_t y = r.y; y < r.y + r.height; ++y) {
-      for (int64_t x = r.x; x < r.x + r.width; ++x) owned_.insert({y, x});
+      for (int64_t x = r.x; x < r.x + r.width; ++x) cells_.at({y, x}).isOwned = true;
     }
     rectangles_.push_back(r);
+  }
+
+  bool isOwned(const Cell& at) const {
+    const auto found = cells_.find(at);
+    return found != cells_.end() && found->second.isOwned;
   }
 
   bool isOnPlate(const Box3& box) const {
@@ -288,7 +306,7 @@ class PlaneGrid {
       return static_cast<int64_t>(
           std::clamp(std::floor((middle[i] - reach_.min[i]) / side_[i]), -1.0, count_[i]));
     };
-    return owned_.contains({cellAt(1), cellAt(0)});
+    return isOwned({cellAt(1), cellAt(0)});
   }
 
   void emit(Plates& out) {
@@ -314,7 +332,7 @@ class PlaneGrid {
       std::vector<std::pair<Cell, double>> cells;
       forEachCell(s, [&](const Cell& at, double share) {
         whole += share;
-        if (!owned_.contains(at)) return;
+        if (!isOwned(at)) return;
         hidden += share;
         cells.emplace_back(at, share);
       });
@@ -373,8 +391,6 @@ class PlaneGrid {
   std::array<double, 2> count_{}, side_{};
   /// By row and column.
   std::map<Cell, Cover> cells_;
-  /// Those of rectangles.
-  std::set<Cell> owned_;
   std::vector<Rectangle> rectangles_;
 };
 
