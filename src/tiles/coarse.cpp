@@ -196,9 +196,9 @@ class Coarsener {
       for (; tries < bearers.size(); ++tries, at = at + 1 < bearers.size() ? at + 1 : 0) {
         work();
         const CoarsePart& bearer = *bearers[at].part;
-        if (within && !isBefore(bearer, p, corners)) continue;
+        // Most are far, which the first corner tells.
         if (distanceTo(bearer, corners, tolerance_) > tolerance_) continue;
-        if (!within || isAlong(bearer, p, center)) break;
+        if (!within || (isBefore(bearer, p, corners) && isAlong(bearer, p, center))) break;
       }
       if (tries == bearers.size()) {
         rest.push_back(i);
