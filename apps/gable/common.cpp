@@ -214,8 +214,8 @@ void tellAtlas(const gable::WriteResult::Atlas& a) {
   add(a.repeating, " that repeat their pictures");
   add(a.special, " with maps of their own");
   add(a.large, " that have no room in it");
-  note("the atlas joins " + std::to_string(a.merged) + " materials" + " to " +
-       std::to_string(a.into) + "; outside of it stay " + why);
+  note("the atlas joins " + std::to_string(a.merged) + " materials to " + std::to_string(a.into) +
+       "; outside of it stay " + why);
 }
 
 }  // namespace

@@ -66,15 +66,6 @@ struct CellHash {
   }
 };
 
-std::array<Vec3, 8> cornersOf(const CoarsePart& p) {
-  std::array<Vec3, 8> out;
-  for (size_t i = 0; i < 8; ++i) {
-    out[i] = p.frame.point({i & 1 ? p.box.max.x : p.box.min.x, i & 2 ? p.box.max.y : p.box.min.y,
-                            i & 4 ? p.box.max.z : p.box.min.z});
-  }
-  return out;
-}
-
 // How far the farthest corner is from the box; at once where that is more than `most`.
 double distanceTo(const CoarsePart& large, const std::array<Vec3, 8>& corners, double most) {
   double farthest = 0;

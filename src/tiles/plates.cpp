@@ -117,11 +117,7 @@ class PlaneGrid {
 
   Box3 inPlane(const CoarsePart& p) const {
     Box3 box;
-    for (size_t i = 0; i < 8; ++i) {
-      box.include(frame_.toLocal(
-          p.frame.point({i & 1 ? p.box.max.x : p.box.min.x, i & 2 ? p.box.max.y : p.box.min.y,
-                         i & 4 ? p.box.max.z : p.box.min.z})));
-    }
+    for (const Vec3& c : cornersOf(p)) box.include(frame_.toLocal(c));
     return box;
   }
 
@@ -312,9 +308,9 @@ class PlaneGrid {
   void emit(Plates& out) {
     double offset = 0;
     for (const Sheet& s : sheets_) {
+      if (s.isLarge) continue;
       const Box3 box = inPlane(partOf(s));
       if (!isOnPlate(box)) continue;
-      if (s.isLarge) continue;
       out.taken[s.number] = true;
       offset = std::max({offset, std::abs(box.min.z - depth_), std::abs(box.max.z - depth_)});
     }
@@ -495,6 +491,15 @@ Vec3 axisOf(const Frame& frame, size_t axis) {
   Vec3 unit;
   unit[axis] = 1;
   return frame.direction(unit);
+}
+
+std::array<Vec3, 8> cornersOf(const CoarsePart& p) {
+  std::array<Vec3, 8> out;
+  for (size_t i = 0; i < 8; ++i) {
+    out[i] = p.frame.point({i & 1 ? p.box.max.x : p.box.min.x, i & 2 ? p.box.max.y : p.box.min.y,
+                            i & 4 ? p.box.max.z : p.box.min.z});
+  }
+  return out;
 }
 
 Plates platesOf(const CoarseModel& model, std::span<const size_t> narrow,
