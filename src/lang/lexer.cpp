@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "base/text.h"
+#include "lang/other_languages.h"
 
 namespace gable::lang {
 
@@ -370,16 +371,13 @@ class Lexer {
         {"]", TokenKind::RBracket}, {"{", TokenKind::LBrace},    {"}", TokenKind::RBrace},
         {",", TokenKind::Comma},    {";", TokenKind::Semicolon}, {":", TokenKind::Colon},
         {"@", TokenKind::At},       {"~", TokenKind::Tilde},     {"'", TokenKind::Quote},
-        {"^", TokenKind::Caret},
+        {"^", TokenKind::Caret},    {"?", TokenKind::Question},
     };
     for (const auto& [text, kind] : kSigns) {
       if (startsWith(text)) return push(kind, text.size());
     }
-    if (startsWith("->")) {
-      error("bad-arrow", at_, at_ + 2, "'->' is not an arrow of this language",
-            "write '-->' after the head of a rule", Replacement{spanOf(at_, at_ + 2), "-->"});
-      return push(TokenKind::Arrow, 2);
-    }
+    // The parser reports it, with what stands there instead.
+    if (startsWith("->")) return push(TokenKind::Arrow, 2);
     if (const size_t length = operatorLength(at_)) {
       return push(operatorKind(text_.substr(at_, length)), length);
     }
@@ -390,7 +388,8 @@ class Lexer {
 
   void lexUnknown() {
     if (peek() == '&') {
-      error("unexpected-character", at_, at_ + 1, "'&' is no operator", "did you mean '&&'?",
+      error("unexpected-character", at_, at_ + 1, "'&' is no operator",
+            remedyOf(*foreignWord(ForeignUse::Operator, "&")),
             Replacement{spanOf(at_, at_ + 1), "&&"});
       return push(TokenKind::And, 1);
     }
@@ -404,7 +403,6 @@ class Lexer {
                     : std::string("a byte that is no text has no meaning here"),
           typographic          ? "use the straight quotes \" and '"
           : sign == "\xc2\xb0" ? "remove it: angles are in degrees"
-          : sign == "?"        ? "choose by case: case a > 2: 10 else: 5"
                                : "remove it");
     // One report for a whole run of such bytes.
     at_ += length;
@@ -482,7 +480,7 @@ std::string stringValue(std::string_view s) {
 }
 
 const char* tokenKindName(TokenKind kind) {
-  static constexpr std::array<const char*, 37> kNames = {"the end of the file",
+  static constexpr std::array<const char*, 38> kNames = {"the end of the file",
                                                          "a name",
                                                          "a number",
                                                          "a string",
@@ -518,7 +516,8 @@ const char* tokenKindName(TokenKind kind) {
                                                          "'!='",
                                                          "'&&'",
                                                          "'||'",
-                                                         "'^'"};
+                                                         "'^'",
+                                                         "'?'"};
   return kNames[static_cast<size_t>(kind)];
 }
 

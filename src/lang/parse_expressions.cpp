@@ -11,6 +11,7 @@
 
 #include "base/number.h"
 #include "lang/lexer.h"
+#include "lang/other_languages.h"
 #include "lang/parser_impl.h"
 
 namespace gable::lang {
@@ -59,55 +60,49 @@ NodeId Parser::parseExpression() {
   if (is(TokenKind::Percent) && ahead(1).kind == TokenKind::Colon) {
     return parsePercentChoice(value, begin, true);
   }
+  if (is(TokenKind::Question)) skipTernary();
   return value;
 }
 
-// Signs of other languages: two that stand together, read as the one that is meant.
-Parser::Sign Parser::doubledSignHere() const {
-  struct Pair {
-    TokenKind first, second, meant;
-    const char* sign;
-  };
-  constexpr Pair kPairs[] = {
-      {TokenKind::Less, TokenKind::Greater, TokenKind::NotEqual, "!="},
-      {TokenKind::Equal, TokenKind::Greater, TokenKind::GreaterEqual, ">="},
-      {TokenKind::Equal, TokenKind::Less, TokenKind::LessEqual, "<="},
-      {TokenKind::EqualEqual, TokenKind::Equal, TokenKind::EqualEqual, "=="},
-      {TokenKind::NotEqual, TokenKind::Equal, TokenKind::NotEqual, "!="},
-  };
-  for (const Pair& p : kPairs) {
-    if (is(p.first) && ahead(1).kind == p.second && ahead(1).begin == current().end) {
-      return {p.meant, 2, p.sign};
-    }
-  }
-  return {};
+// Signs of other languages: two that stand together, or '^', read as the one that is meant.
+Parser::Sign Parser::foreignSignHere() const {
+  if (at_ == arrowAt_ || inAnnotation_) return {};
+  const Token& second = ahead(1);
+  const bool pairs = second.begin == current().end &&
+                     (second.kind == TokenKind::Greater || second.kind == TokenKind::Less ||
+                      second.kind == TokenKind::Equal || second.kind == TokenKind::Star);
+  if (!pairs && !is(TokenKind::Caret)) return {};
+  const uint32_t end = pairs ? second.end : current().end;
+  const ForeignWord* const row =
+      foreignWord(ForeignUse::Operator, text_.substr(current().begin, end - current().begin));
+  if (!row || row->meant == TokenKind::End) return {};
+  return {row->meant, pairs ? 2u : 1u, row};
 }
 
 // The word or the single sign that stands where an operator is meant.
 Parser::Sign Parser::wordOperatorHere() const {
-  const Token& t = current();
   // Between the parts of a block it is a sign of its own.
-  if (is(TokenKind::Pipe) && place_.blocks == 0) return {TokenKind::Or, 1, "||"};
-  if (!isName(t) || declarationHere()) return {};
-  if (isWord(t, "and")) return {TokenKind::And, 1, "&&"};
-  if (isWord(t, "or")) return {TokenKind::Or, 1, "||"};
-  return {};
+  const bool bar = is(TokenKind::Pipe) && place_.blocks == 0;
+  if (!bar && (!isName(current()) || declarationHere())) return {};
+  const ForeignWord* const row = foreignWord(ForeignUse::Operator, textOf(current()));
+  return row ? Sign{row->meant, 1, row} : Sign{};
 }
 
 // The operator at the current token, and how many tokens it has. What is written as in other
 // languages is reported, and read as it is meant.
 Parser::Sign Parser::operatorHere() {
-  Sign sign = doubledSignHere();
+  Sign sign = foreignSignHere();
   if (sign.tokens == 0) sign = wordOperatorHere();
   const bool assigns = sign.tokens == 0 && place_.comparing && is(TokenKind::Equal);
-  if (assigns) sign = {TokenKind::EqualEqual, 1, "=="};
+  if (assigns) sign = {TokenKind::EqualEqual, 1, nullptr};
   if (sign.tokens == 0) return {current().kind, 1, nullptr};
   const Span span = {file_, current().begin, ahead(sign.tokens - 1).end};
   const std::string written(text_.substr(span.begin, span.end - span.begin));
   error("unexpected-token", span,
         "'" + written + (assigns ? "' does not compare" : "' is no operator"),
-        std::string("write '") + sign.meant + "'");
-  fix(span, sign.meant);
+        assigns ? "write '=='" : remedyOf(*sign.foreign));
+  const std::string_view instead = assigns ? "==" : sign.foreign->instead;
+  if (!instead.empty()) fix(span, std::string(instead));
   return sign;
 }
 
@@ -270,7 +265,14 @@ NodeId Parser::parsePrimary() {
   if (t.kind == TokenKind::LParen) {
     advance();
     const NodeId inner = parseExpression();
-    expect(TokenKind::RParen, "to close the expression");
+    if (!accept(TokenKind::RParen)) {
+      const std::string comment = hintOfComment(')');
+      if (!comment.empty()) {
+        error("unclosed-bracket", spanOf(t), "this '(' is never closed", comment);
+      } else {
+        unexpected("')' to close the expression");
+      }
+    }
     tree_.setSpan(inner, t.begin, endOfLast());
     return inner;
   }
@@ -285,6 +287,10 @@ NodeId Parser::parsePrimary() {
     advance();
     n.end = t.end;
     return tree_.add(n);
+  }
+  if (takeIf(true)) {
+    const Nest nest(*this);
+    return nest.ok() ? parseCaseChoice(true) : missing();
   }
   if (isName(t) && !declarationHere()) return parseNameExpression();
   if (!reportBareColour()) unexpected("a value");
@@ -380,8 +386,9 @@ NodeId Parser::parseArguments() {
     } else if (reportBareColour()) {
       items.push_back(missing());
     } else {
+      const std::string comment = hintOfComment(')');
       error("unclosed-bracket", spanOf(open), "this '(' is never closed",
-            "add ')' before " + describe(current()));
+            comment.empty() ? "add ')' before " + describe(current()) : comment);
     }
   }
   return list(open.begin, items);

@@ -14,6 +14,13 @@
 
 namespace gable::lang {
 
+namespace {
+
+constexpr const char* kNoBraces =
+    "a branch has a colon and no braces: 'case condition : ... else : ...'";
+
+}  // namespace
+
 // True where a weight "... % :" begins: no successor starts with a number or a bracket, none is
 // followed by an operator.
 bool Parser::weightHere() const {
@@ -109,12 +116,8 @@ bool Parser::parseSuccessor(Nodes& items) {
     accept(TokenKind::Colon);
     return true;
   }
-  if (ifHere()) {
-    error("unexpected-token", spanOf(current()), "'if' is no word of rules",
-          "conditions are written 'case condition : ... else : ...'");
-    fix(spanOf(current()), "case");
-    ifAt_ = at_;
-  }
+  if (takeForeign()) return true;
+  takeIf(false);
   if (place_.inChoice && (elseIfHere() || otherwiseHere())) return false;
   if (!caseHere() && separatorMissing()) return false;
   if (caseHere() || weightHere()) return parseChoiceInSequence(items);
@@ -127,75 +130,6 @@ bool Parser::parseSuccessor(Nodes& items) {
     return true;
   }
   return skipBadSuccessor();
-}
-
-// True at a word, such as "if", with a condition and a colon behind it.
-bool Parser::conditionAfter(size_t index) const {
-  constexpr size_t kMost = 100;
-  const size_t last = index + kMost;
-  for (size_t i = index + 1; i < last && i < tokens_.size(); ++i) {
-    switch (token(i).kind) {
-      case TokenKind::Colon: return i > index + 1;
-      case TokenKind::LParen:
-      case TokenKind::LBracket:
-        if (token(i).match == Token::kNoMatch) return false;
-        i = token(i).match;
-        break;
-      case TokenKind::Number:
-      case TokenKind::String:
-      case TokenKind::Plus:
-      case TokenKind::Minus:
-      case TokenKind::Star:
-      case TokenKind::Slash:
-      case TokenKind::Not:
-      case TokenKind::Less:
-      case TokenKind::LessEqual:
-      case TokenKind::Greater:
-      case TokenKind::GreaterEqual:
-      case TokenKind::Equal:
-      case TokenKind::EqualEqual:
-      case TokenKind::NotEqual:
-      case TokenKind::And:
-      case TokenKind::Or: break;
-      case TokenKind::Name:
-        if (token(i).keyword == Keyword::Case || token(i).keyword == Keyword::Else) return false;
-        break;
-      default: return false;
-    }
-  }
-  return false;
-}
-
-bool Parser::ifHere() const {
-  return isName(current()) && textOf(current()) == "if" && conditionAfter(at_);
-}
-
-// The words of other languages for a further branch: elif, elseif, else if.
-bool Parser::elseIfHere() const {
-  if (is(Keyword::Else)) return isWord(ahead(1), "if") && conditionAfter(at_ + 1);
-  const bool word =
-      isName(current()) &&
-      (isWord(current(), "elif") || isWord(current(), "elseif") || isWord(current(), "elsif"));
-  return word && conditionAfter(at_);
-}
-
-// Reports them, and has the next branch begin there.
-void Parser::reportElseIf() {
-  const size_t tokens = is(Keyword::Else) ? 2 : 1;
-  const Span span = {file_, current().begin, ahead(tokens - 1).end};
-  error(
-      "unexpected-token", span,
-      "'" + std::string(text_.substr(span.begin, span.end - span.begin)) + "' is no word of rules",
-      "write 'case': it begins each further branch, and only the last begins with 'else'");
-  fix(span, "case");
-  at_ += tokens - 1;
-  ifAt_ = at_;
-}
-
-// The words of other languages for the last branch. In a block they may be selectors.
-bool Parser::otherwiseHere() const {
-  return place_.blocks == 0 && isName(current()) && ahead(1).kind == TokenKind::Colon &&
-         (isWord(current(), "default") || isWord(current(), "otherwise"));
 }
 
 bool Parser::parseChoiceInSequence(Nodes& items) {
@@ -233,8 +167,8 @@ NodeId Parser::parseBranchBody(bool expressions) {
   return parseSequence();
 }
 
-// The branch behind "else"; kNoNode if there is none.
-NodeId Parser::parseElse(bool expressions) {
+// The branch behind "else"; kNoNode if there is none. `told`: its braces have been told of.
+NodeId Parser::parseElse(bool expressions, bool told) {
   if (otherwiseHere()) {
     error("unexpected-token", spanOf(current()), describe(current()) + " is no word of 'case'",
           "write 'else'");
@@ -244,11 +178,13 @@ NodeId Parser::parseElse(bool expressions) {
   }
   Node n = node(NodeKind::Branch, current().begin);
   advance();
-  if (!accept(TokenKind::Colon)) {
-    unexpected("':' after 'else'",
-               is(Keyword::Case) ? "write 'else : case ...' or only 'case ...'" : "");
+  const bool braces = is(TokenKind::LBrace) && current().match != Token::kNoMatch;
+  if (!(told && braces) && !accept(TokenKind::Colon)) {
+    unexpected("':' after 'else'", is(Keyword::Case) ? "write 'else : case ...' or only 'case ...'"
+                                   : braces          ? kNoBraces
+                                                     : "");
   }
-  const NodeId body = parseBranchBody(expressions);
+  const NodeId body = braces ? parseBracedBranch(expressions) : parseBranchBody(expressions);
   n.end = endOfLast();
   return make(n, {kNoNode, body});
 }
@@ -293,32 +229,43 @@ bool Parser::comparesWithEqual() const {
 void Parser::expectColonOfCondition() {
   if (accept(TokenKind::Colon)) return;
   const bool word = isName(current()) && isWord(current(), "then");
-  unexpected("':' after the condition of 'case'",
-             word || is(TokenKind::LBrace)
-                 ? "a branch has a colon and no braces: 'case condition : ... else : ...'"
-                 : "");
+  unexpected("':' after the condition of 'case'", word || is(TokenKind::LBrace) ? kNoBraces : "");
   if (word) fix(spanOf(current()), ":");
   if (word) advance();
 }
 
+// One branch of a case, from its word on. `told`: the choice has been told of because of its
+// braces; the first branch in braces is told of here, and tells of the whole.
+NodeId Parser::parseCaseBranch(bool expressions, bool& told) {
+  const size_t first = at_;
+  Node n = node(NodeKind::Branch, current().begin);
+  advance();
+  NodeId condition;
+  {
+    Place inner = place_;
+    inner.comparing = comparesWithEqual();
+    const Enter enter(*this, inner);
+    condition = parseBinary(0);
+  }
+  const bool braces = is(TokenKind::LBrace) && current().match != Token::kNoMatch;
+  if (!braces || !told) expectColonOfCondition();
+  if (uint32_t end = 0; braces && !told) {
+    const std::string whole = asCase(first, expressions, end);
+    if (!whole.empty()) fix({file_, tokens_[first].begin, end}, whole);
+    told = true;
+  }
+  const NodeId body = braces ? parseBracedBranch(expressions) : parseBranchBody(expressions);
+  n.end = endOfLast();
+  return make(n, {condition, body});
+}
+
 NodeId Parser::parseCaseChoice(bool expressions) {
   const Token first = current();
+  bool told = at_ == ifAt_ && token(conditionEnd(at_)).kind == TokenKind::LBrace;
   Nodes branches;
   while (!panic_ && (caseHere() || elseIfHere())) {
-    if (!caseHere()) reportElseIf();
-    Node n = node(NodeKind::Branch, current().begin);
-    advance();
-    NodeId condition;
-    {
-      Place inner = place_;
-      inner.comparing = comparesWithEqual();
-      const Enter enter(*this, inner);
-      condition = parseBinary(0);
-    }
-    expectColonOfCondition();
-    const NodeId body = parseBranchBody(expressions);
-    n.end = endOfLast();
-    branches.push_back(make(n, {condition, body}));
+    if (!caseHere()) takeElseIf(told);
+    branches.push_back(parseCaseBranch(expressions, told));
   }
   if (is(TokenKind::Pipe) && ahead(1).keyword == Keyword::Else) {
     error("unexpected-token", spanOf(current()), "'|' parts the branches of 'case' here",
@@ -326,9 +273,9 @@ NodeId Parser::parseCaseChoice(bool expressions) {
     fix(spanOf(current()), "");
     advance();
   }
-  if (const NodeId otherwise = parseElse(expressions); otherwise != kNoNode) {
+  if (const NodeId otherwise = parseElse(expressions, told); otherwise != kNoNode) {
     branches.push_back(otherwise);
-  } else if (!panic_) {
+  } else if (!panic_ && !told) {
     error("missing-else", spanOf(first), "this 'case' has no 'else'",
           expressions ? "add 'else : value'" : "add 'else : NIL', or what else shall happen");
     if (!expressions) fix(spanAt(endOfLast()), " else : NIL");
@@ -359,7 +306,7 @@ NodeId Parser::parsePercentChoice(NodeId firstWeight, uint32_t begin, bool expre
     if (at_ == before) advance();
     break;
   }
-  if (const NodeId otherwise = parseElse(expressions); otherwise != kNoNode) {
+  if (const NodeId otherwise = parseElse(expressions, false); otherwise != kNoNode) {
     branches.push_back(otherwise);
   }
   Node n = node(NodeKind::Choice, begin);
@@ -378,8 +325,9 @@ NodeId Parser::parsePush() {
     body = parseSequence();
   }
   if (!accept(TokenKind::RBracket)) {
+    const std::string comment = hintOfComment(']');
     error("unclosed-bracket", spanOf(open), "this '[' is never closed",
-          "add ']' before " + describe(current()));
+          comment.empty() ? "add ']' before " + describe(current()) : comment);
   }
   return make(node(NodeKind::Push, open.begin), {body});
 }
@@ -523,7 +471,8 @@ NodeId Parser::parseItem(bool expressions) {
   Node n = node(NodeKind::Item, current().begin);
   NodeId head = kNoNode;
   NodeId second = kNoNode;
-  if (headHere()) {
+  const bool arrow = at_ == itemAt_;
+  if (arrow || headHere()) {
     // `else :` is a word that no block has; the analysis says what to write for it.
     if (is(Keyword::Else)) {
       head = named(NodeKind::Name, current());
@@ -531,7 +480,10 @@ NodeId Parser::parseItem(bool expressions) {
     } else if (!parseStarHead(head)) {
       head = parseExpression();
     }
-    if (accept(TokenKind::Equal)) {
+    if (arrow && at_ == arrowAt_) {
+      takeArrowOfItem();
+      n.op = static_cast<uint8_t>(ItemKind::Each);
+    } else if (accept(TokenKind::Equal)) {
       n.op = static_cast<uint8_t>(ItemKind::Combine);
     } else if (accept(TokenKind::Connect)) {
       n.op = static_cast<uint8_t>(ItemKind::Connect);
@@ -612,7 +564,7 @@ NodeId Parser::parseBlock(bool expressions) {
   Nodes items;
   bool wantItem = true;
   while (!panic_ && !is(closer)) {
-    if (atEnd() || declarationHere()) break;
+    if (atEnd() || (!arrowOfItemHere() && declarationHere())) break;
     const size_t before = at_;
     if (is(TokenKind::Pipe)) {
       if (wantItem) {

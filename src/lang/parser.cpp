@@ -17,7 +17,12 @@
 namespace gable::lang {
 
 Parser::Parser(std::string_view text, uint32_t file, const Tokens& tokens, Diagnostics& diagnostics)
-    : text_(text), file_(file), tokens_(tokens.tokens), diagnostics_(diagnostics), tree_(file) {}
+    : text_(text),
+      file_(file),
+      tokens_(tokens.tokens),
+      comments_(tokens.comments),
+      diagnostics_(diagnostics),
+      tree_(file) {}
 
 // --- Tokens ---
 
@@ -86,6 +91,7 @@ bool Parser::declarationAt(size_t index, bool insideBlock) const {
 // Inside blocks `name =` is a selector; but not at the beginning of a line when the brace of the
 // block is never closed.
 bool Parser::declarationHere() const {
+  if (at_ == itemAt_) return false;
   if (place_.comparing) return declarationAt(at_, true);
   if (place_.blocks == 0 || !place_.open) return declarationAt(at_, place_.blocks > 0);
   const uint32_t begin = current().begin;
@@ -435,20 +441,43 @@ NodeId Parser::parseLocals() {
   return list(begin, locals);
 }
 
-void Parser::reportAfterValue(std::string_view name) {
+// Whether the declaration whose name is at `name` stands among the operations of the rule before.
+bool Parser::isWithinRule(size_t name) const {
+  if (declarations_.empty() || tree_.kind(declarations_.back()) != NodeKind::Rule) return false;
+  const bool word = name > 0 && (tokens_[name - 1].keyword == Keyword::Attr ||
+                                 tokens_[name - 1].keyword == Keyword::Const);
+  const Token& first = tokens_[word ? name - 1 : name];
+  const std::optional<size_t> rule = indentOf(tree_[declarations_.back()].begin);
+  return !beginsLine(first) || indentOf(first.begin).value_or(0) > rule.value_or(0);
+}
+
+// `name`: the token of the declaration's name.
+void Parser::reportAfterValue(size_t name) {
   if (panic_ || atEnd() || declarationAt(at_, false) || place_.inOverrides) return;
   if (isName(current()) && ahead(1).kind == TokenKind::Colon &&
       ahead(2).kind == TokenKind::String) {
     return;
   }
+  const std::string written(textOf(tokens_[name]));
+  const bool operations = isName(current()) || is(TokenKind::LBracket);
   std::string hint;
   const bool decimals = is(TokenKind::Comma) && at_ > 0 && ahead(1).kind == TokenKind::Number &&
                         tokens_[at_ - 1].kind == TokenKind::Number;
   if (decimals) {
     hint = "numbers have a decimal point: write " + std::string(textOf(tokens_[at_ - 1])) + "." +
            std::string(textOf(ahead(1)));
+  } else if (isName(current()) && isWord(current(), "if")) {
+    hint = "choose by case: case a > 2: 10 else: 5";
+  } else if (operations && isWithinRule(name)) {
+    hint =
+        "a declaration ends the rule before it: put it above the rule; a value of the rule "
+        "itself is written 'Rule with (" +
+        written + " := value) --> ...'";
   }
-  unexpected("a new declaration after the value of '" + std::string(name) + "'", std::move(hint));
+  // What follows a value that was told of already belongs to it.
+  if (!(operations && name == foreignHeadAt_)) {
+    unexpected("a new declaration after the value of '" + written + "'", std::move(hint));
+  }
   if (decimals) fix(spanOf(current()), ".");
   skipToDeclaration();
 }
@@ -526,7 +555,7 @@ NodeId Parser::parseDefinition(NodeId annotations, Keyword keyword) {
   Node n = node(NodeKind::Function, name.begin);
   n.text = tree_.intern(textOf(name));
 
-  if (accept(TokenKind::Arrow)) {
+  if (acceptArrow()) {
     if (keyword == Keyword::Attr || keyword == Keyword::Const) {
       warning("keyword-on-rule", spanOf(name),
               "'" + std::string(textOf(name)) + "' is a rule; the keyword before it has no effect",
@@ -560,7 +589,7 @@ NodeId Parser::parseDefinition(NodeId annotations, Keyword keyword) {
   }
   n.end = endOfLast();
   const NodeId id = make(n, {annotations, params, locals, value});
-  reportAfterValue(textOf(name));
+  reportAfterValue(nameIndex);
   return id;
 }
 
@@ -607,6 +636,9 @@ void Parser::parseDeclaration() {
     stray();
     skipDashComment();
     skipToDeclaration();
+  } else if (takeForeign()) {
+    stray();
+    if (headAt(at_) == Head::None) skipToDeclaration();
   } else {
     stray();
     if (atEnd()) return;

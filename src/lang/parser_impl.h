@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// The parser's state and its productions, for the three files that implement them: parser.cpp
-// (declarations), parse_successors.cpp (bodies of rules) and parse_expressions.cpp. Not included
-// from anywhere else.
+// The parser's state and its productions, for the files that implement them: parser.cpp
+// (declarations), parse_successors.cpp (bodies of rules), parse_expressions.cpp, and
+// parse_foreign.cpp (what is written as in other languages). Not included from anywhere else.
 #pragma once
 
 #include <optional>
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/diagnostic.h"
+#include "lang/other_languages.h"
 #include "lang/parser.h"
 #include "lang/token.h"
 #include "lang/tree.h"
@@ -130,7 +131,8 @@ class Parser {
   NodeId parseDefinition(NodeId annotations, Keyword keyword);
   NodeId parseParams();
   NodeId parseLocals();
-  void reportAfterValue(std::string_view name);
+  bool isWithinRule(size_t name) const;
+  void reportAfterValue(size_t name);
   bool dashesHere() const;
   bool dashCommentHere();
   size_t usesOf(std::string_view name);
@@ -146,7 +148,7 @@ class Parser {
   NodeId parsePercentChoice(NodeId firstWeight, uint32_t begin, bool expressions);
   NodeId parseCaseChoice(bool expressions);
   NodeId parseBranchBody(bool expressions);
-  NodeId parseElse(bool expressions);
+  NodeId parseElse(bool expressions, bool told);
   NodeId parseApply();
   NodeId parseOperand();
   NodeId parseMember(const Token& importName, NodeId overrides, NodeKind kind);
@@ -164,12 +166,8 @@ class Parser {
   bool comparesWithEqual() const;
   bool skipBadSuccessor();
   bool reportBadSuccessor();
-  bool conditionAfter(size_t index) const;
-  bool ifHere() const;
-  bool elseIfHere() const;
-  bool otherwiseHere() const;
-  void reportElseIf();
   void expectColonOfCondition();
+  NodeId parseCaseBranch(bool expressions, bool& told);
   bool caseHere() const { return is(Keyword::Case) || at_ == ifAt_; }
   bool starHere(size_t index) const;
   bool bareArgumentHere() const;
@@ -180,13 +178,13 @@ class Parser {
   // --- Expressions (parse_expressions.cpp) ---
   NodeId parseExpression();
   // An operator as it stands in the text: what it is read as, its tokens (0: there is none), and
-  // how it is written where that is another way.
+  // its entry where it is one of another language.
   struct Sign {
     TokenKind kind = TokenKind::End;
     size_t tokens = 0;
-    const char* meant = nullptr;
+    const ForeignWord* foreign = nullptr;
   };
-  Sign doubledSignHere() const;
+  Sign foreignSignHere() const;
   Sign wordOperatorHere() const;
   Sign operatorHere();
   bool unitAt(size_t at) const;
@@ -205,9 +203,38 @@ class Parser {
   NodeId parseArguments();
   NodeId parseArgument(bool matched);
 
+  // --- What is written as in other languages (parse_foreign.cpp) ---
+  bool isDeclared(std::string_view name);
+  const ForeignWord* foreignAt(size_t index, ForeignUse use);
+  uint32_t lineEnd(uint32_t at) const;
+  bool beginsLine(const Token& t) const;
+  bool onOneLine(const Token& a, const Token& b) const;
+  void skipForeign(const Token& first);
+  bool loopHere() const;
+  bool resultHere() const;
+  bool takeForeignStatement();
+  bool takeForeignDeclaration();
+  bool takeAssignment();
+  bool takeForeign();
+  size_t behindHead(size_t index) const;
+  bool foreignArrowAt(size_t index) const;
+  bool arrowOfItemHere();
+  void takeArrowOfItem();
+  bool acceptArrow();
+  void skipTernary();
+  std::string hintOfComment(char closer) const;
+  size_t conditionEnd(size_t index) const;
+  std::string asCase(size_t index, bool expressions, uint32_t& end) const;
+  bool takeIf(bool expressions);
+  NodeId parseBracedBranch(bool expressions);
+  bool elseIfHere() const;
+  void takeElseIf(bool told);
+  bool otherwiseHere() const;
+
   std::string_view text_;
   uint32_t file_;
   const std::vector<Token>& tokens_;
+  const std::vector<Comment>& comments_;
   Diagnostics& diagnostics_;
   Tree tree_;
   Nodes declarations_;
@@ -216,6 +243,13 @@ class Parser {
   size_t lastErrorAt_ = SIZE_MAX;
   // The word 'if' that is read as 'case'.
   size_t ifAt_ = SIZE_MAX;
+  // The part of a block that has an arrow in the place of its colon, and that arrow.
+  size_t itemAt_ = SIZE_MAX;
+  size_t arrowAt_ = SIZE_MAX;
+  // The declaration before which a word of another language has been told of.
+  size_t foreignHeadAt_ = SIZE_MAX;
+  // Words of other languages that have been looked for, and whether the file declares them.
+  std::unordered_map<std::string_view, bool> declaredWords_;
   /// How often each name stands in the file; empty until someone asks.
   std::unordered_map<std::string_view, size_t> nameUses_;
   size_t errors_ = 0;

@@ -49,7 +49,8 @@ enum class TokenKind : uint8_t {
   NotEqual,
   And,
   Or,
-  Caret,  // ^, in @Handle only
+  Caret,     // ^, in @Handle only
+  Question,  // ?, which has no meaning
 };
 
 /// Words with a meaning of their own. All but `case`, `else`, `true` and `false` are names wherever

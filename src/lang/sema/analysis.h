@@ -316,11 +316,17 @@ class Analysis {
   void checkEndlessRules(ModuleId firstModule);
   using CertainRules = std::vector<std::pair<RuleId, Span>>;
   void certainRules(NodeId sequence, CertainRules& out);
+  void certainParts(NodeId block, CertainRules& out);
   void reportEndless(std::span<const RuleId> path, Span at);
   void reportEmptyFile();
   Value writtenValue(NodeId node);
   void checkWrittenSizes(NodeId block, const OpSpec& op);
   void checkWrittenValue(NodeId node, const ParamSpec& param, std::string_view callee);
+  std::optional<double> writtenNumber(NodeId node);
+  void warnOfFraction(NodeId node, const std::string& what, double number, std::string hint);
+  void checkFractions(std::string_view callee, const Signature& signature,
+                      std::span<const NodeId> args);
+  void checkSetFraction(std::span<const NodeId> args);
   void checkWrittenCall(NodeId node, std::string_view callee, const Signature& signature,
                         std::span<const NodeId> arguments);
   bool hasTerm(NodeId node, std::string_view name) const;
@@ -393,6 +399,8 @@ class Analysis {
     meant_ = {name, nearestName(name, names())};
     return meant_.nearest.empty() ? std::string() : "did you mean '" + meant_.nearest + "'?";
   }
+  /// What rules have in the place of a function of another language; empty where it is none.
+  std::string hintOfForeignFunction(std::string_view name);
   std::string quote(std::string_view s) const { return "'" + std::string(s) + "'"; }
 
   const Catalogue& catalogue_;

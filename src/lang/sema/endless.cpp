@@ -11,8 +11,44 @@
 
 namespace gable::lang {
 
-// The rules that a sequence applies whatever happens: what stands in a choice or in a block may not
-// be reached; the rest always is.
+namespace {
+
+// Whether a division makes each of its parts whatever the size of the shape: none has a length of
+// its own that could be all there is.
+bool makesAllParts(const Tree& t, NodeId block) {
+  for (const NodeId item : t.children(block)) {
+    if (t.kind(item) == NodeKind::Block) {
+      if (!makesAllParts(t, item)) return false;
+      continue;
+    }
+    const NodeId size = t.child(item, 0);
+    const NodeKind kind = size == kNoNode ? NodeKind::Missing : t.kind(size);
+    if (kind != NodeKind::Floating && kind != NodeKind::Relative) return false;
+  }
+  return true;
+}
+
+// Operations that fill an axis with parts of one kind.
+bool fills(std::string_view operation) {
+  return operation == "splitRepeat" || operation == "splitGrid";
+}
+
+}  // namespace
+
+// The rules in the parts of a block that is made whatever happens.
+void Analysis::certainParts(NodeId block, CertainRules& out) {
+  for (const NodeId item : tree().children(block)) {
+    work();
+    if (tree().kind(item) == NodeKind::Block) {
+      certainParts(item, out);
+    } else if (const NodeId body = tree().child(item, 2); body != kNoNode) {
+      certainRules(body, out);
+    }
+  }
+}
+
+// The rules that a sequence applies whatever happens: what stands in a choice, or in a block of
+// which a part may be missing, may not be reached; the rest always is.
 void Analysis::certainRules(NodeId sequence, CertainRules& out) {
   const Tree& t = tree();
   for (const NodeId item : t.children(sequence)) {
@@ -23,8 +59,13 @@ void Analysis::certainRules(NodeId sequence, CertainRules& out) {
     if (t.text(item) == "NIL") return;
     const Resolution& r = module().at(item);
     if (r.kind == RefKind::Rule) out.emplace_back(r.index, nameSpan(t, item));
+    if (r.kind != RefKind::Operation) continue;
+    for (const NodeId block : t.children(item).subspan(1)) {
+      const bool splits = t.text(item) == "split" && makesAllParts(t, block);
+      if (splits || fills(t.text(item))) certainParts(block, out);
+    }
     // do(Rule) applies it in place.
-    if (r.kind != RefKind::Operation || t.text(item) != "do") continue;
+    if (t.text(item) != "do") continue;
     for (const NodeId call : arguments(t.child(item, 0))) {
       const Resolution& run = module().at(call);
       if (run.kind == RefKind::Rule) out.emplace_back(run.index, t.span(call));

@@ -9,6 +9,7 @@
 
 #include "base/number.h"
 #include "base/work.h"
+#include "lang/other_languages.h"
 #include "lang/sema/analysis.h"
 
 namespace gable::lang {
@@ -171,11 +172,26 @@ void Analysis::reportUnknownName(NodeId node) {
             "write " + quote(std::string(name) + "(...)"));
     return;
   }
-  std::string hint = wordHint_;
+  const std::string_view bare = withoutForeignModule(name);
+  const ForeignWord* const foreign = foreignWord(ForeignUse::Value, bare.empty() ? name : bare);
+  std::string hint = foreign ? remedyOf(*foreign) : wordHint_;
+  if (!foreign && !bare.empty() && isKnownValue(bare)) hint = "write " + quote(bare);
   if (hint.empty() && !wordsHere_.empty()) hint = near(name, [&] { return wordsHere_; });
   if (hint.empty()) hint = near(name, [&] { return valueNames(body_.module); });
   if (hint.empty()) hint = "declare it with 'attr' or 'const', or put it in quotes if it is a text";
   errorAt("unknown-name", node, "nothing is named " + quote(name), std::move(hint));
+  if (foreign && !foreign->instead.empty()) {
+    fix(tree().span(node), std::string(foreign->instead));
+  }
+}
+
+std::string Analysis::hintOfForeignFunction(std::string_view name) {
+  const std::string_view bare = withoutForeignModule(name);
+  const std::string_view word = bare.empty() ? name : bare;
+  if (const ForeignWord* const known = foreignWord(ForeignUse::Function, word)) {
+    return remedyOf(*known);
+  }
+  return catalogue_.function(bare) ? "write " + quote(bare) : std::string();
 }
 
 // --- Calls ---
@@ -251,16 +267,16 @@ ValueType Analysis::visitCall(NodeId node) {
   }
   if (inMissingImport(body_.module, name)) return ValueType::Null;
   std::string hint = near(name, [&] { return valueNames(body_.module); });
-  if (!rulesNamed(body_.module, name).rules.empty()) {
+  if (std::string foreign = hintOfForeignFunction(name); !foreign.empty()) {
+    meant_ = {};
+    hint = std::move(foreign);
+  } else if (!rulesNamed(body_.module, name).rules.empty()) {
     meant_ = {};
     hint = "it is a rule; rules have no value";
   } else if (catalogue_.operation(name)) {
     meant_ = {};
     hint =
         "it is an operation, and those stand in rules: 'Name --> " + std::string(name) + "(...)'";
-  } else if (name == "not" || name == "NOT" || name == "Not") {
-    meant_ = {};
-    hint = "write !(...)";
   }
   errorAt("unknown-function", node, "there is no function " + quote(name), std::move(hint));
   return ValueType::Null;

@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "base/work.h"
 #include "lang/old_regions.h"
+#include "lang/other_languages.h"
 #include "lang/sema/analysis.h"
 
 namespace gable::lang {
@@ -27,45 +28,22 @@ std::string hintOfNewName(std::string_view name) {
 /// A split whose parts have a depth as well, and a second block for what they leave.
 bool hasSections(const OpSpec& op) { return op.block == BlockKind::Split && !op.parts.empty(); }
 
-/// Operations of the first shape grammars and of CityEngine before 2009, and what CGA has in their
-/// place.
-// Words of other languages for what case does.
-std::string hintOfConditions(std::string_view name) {
-  const bool is = name == "if" || name == "while" || name == "for";
-  return is ? "conditions are written 'case condition : ... else : ...'" : "";
+// Words of other languages for what 'case' and splits do.
+std::string hintOfStatement(std::string_view name) {
+  const ForeignWord* const word = foreignWord(ForeignUse::Statement, name);
+  return word ? remedyOf(*word) : std::string();
+}
+
+// Operations of other programs and of earlier grammars that are written in another way here.
+std::string hintOfOperation(std::string_view name) {
+  const ForeignWord* const word = foreignWord(ForeignUse::Operation, name);
+  return word && word->instead.empty() ? remedyOf(*word) : std::string();
 }
 
 // Operations of one letter, by what other programs call them.
 std::string_view shortNameOf(std::string_view name) {
-  constexpr std::pair<std::string_view, std::string_view> kNames[] = {
-      {"insert", "i"}, {"rotate", "r"},    {"scale", "s"},
-      {"size", "s"},   {"translate", "t"}, {"move", "t"}};
-  for (const auto& [word, operation] : kNames) {
-    if (equalButForCase(word, name)) return operation;
-  }
-  return {};
-}
-
-std::string hintOfEarlyName(std::string_view name) {
-  struct Early {
-    std::string_view name;
-    const char* hint;
-  };
-  constexpr Early kEarly[] = {
-      {"subdiv",
-       "in CGA it is 'split(y) { size : operations | ... }': the axis is a word, and each "
-       "size stands before its part"},
-      {"repeat", "in CGA it is 'split(x) { ~size : operations }*'"},
-      {"component", "in CGA it is 'comp(f) { side : operations | top : operations }'"},
-      {"rx", "in CGA it is 'r(angle, 0, 0)'"},
-      {"ry", "in CGA it is 'r(0, angle, 0)'"},
-      {"rz", "in CGA it is 'r(0, 0, angle)'"},
-      {"snap", "CGA has no snap lines; give the parts that shall line up equal sizes"},
-  };
-  for (const Early& e : kEarly) {
-    if (equalButForCase(name, e.name)) return e.hint;
-  }
-  return {};
+  const ForeignWord* const word = foreignWord(ForeignUse::Operation, name);
+  return word ? word->instead : std::string_view();
 }
 
 }  // namespace
@@ -181,8 +159,8 @@ void Analysis::makeLeaf(NodeId node, bool known) {
   if (known) return;
   for (const NodeId block : tree().children(node).subspan(1)) {
     const std::string_view now = modernOperation(text(node));
-    std::string hint = hintOfEarlyName(text(node));
-    if (hint.empty()) hint = hintOfConditions(text(node));
+    std::string hint = hintOfOperation(text(node));
+    if (hint.empty()) hint = hintOfStatement(text(node));
     if (hint.empty()) {
       hint = now.empty() ? near(text(node), [&] { return ruleNames(body_.module); })
                          : hintOfNewName(now);
@@ -271,15 +249,15 @@ void Analysis::reportUndefinedRule(NodeId node, const RuleSet& found) {
     hint = "did you mean " + quote(std::string(before) + meant_.nearest) + "?";
   }
   if (hint.empty()) hint = hintOfImport(place.first, place.second);
-  if (hint.empty()) hint = hintOfEarlyName(name);
+  if (hint.empty()) hint = hintOfOperation(name);
   if (hint.empty() && !meant.empty()) {
     meant_ = {name, std::string(meant)};
     hint = "did you mean " + quote(meant) + "?";
   }
   const bool leaf = hint.empty();
-  if (const std::string conditions = hintOfConditions(name); !conditions.empty()) {
+  if (const std::string statement = hintOfStatement(name); !statement.empty()) {
     meant_ = {};
-    hint = conditions;
+    hint = statement;
     if (called) {
       error("unknown-operation", span, "there is no operation or rule " + quote(name), hint);
       return;

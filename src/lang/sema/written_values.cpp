@@ -5,6 +5,7 @@
 // They are known once constants are folded, so this is a pass of its own over the resolved calls.
 
 #include <algorithm>
+#include <initializer_list>
 
 #include "base/number.h"
 #include "lang/sema/analysis.h"
@@ -21,6 +22,64 @@ std::string mendedText(const ParamSpec& param, std::string_view text) {
     for (const char c : text) full.append(c == '#' ? 1 : 2, c);
   }
   return !full.empty() && param.form->holds(full) ? full : std::string();
+}
+
+// What goes from 0 to 1, by operation or function: shares, and components of colours. A number
+// beyond is taken as 0 or 1.
+struct Fractions {
+  std::string_view callee;
+  std::initializer_list<std::string_view> parameters;
+};
+const Fractions kFractions[] = {
+    {"color", {"red", "green", "blue", "opacity"}},
+    {"colorHSVOToHex", {"saturation", "value", "opacity"}},
+    {"colorHSVToHex", {"saturation", "value"}},
+    {"colorRGBOToHex", {"red", "green", "blue", "opacity"}},
+    {"colorRGBToHex", {"red", "green", "blue"}},
+    {"colorRamp", {"value"}},
+    {"p", {"probability"}},
+    {"set",
+     {"material.ambient.b", "material.ambient.g", "material.ambient.r", "material.color.a",
+      "material.color.b", "material.color.g", "material.color.r", "material.metallic",
+      "material.opacity", "material.opacitymap.cutoff", "material.reflectivity",
+      "material.roughness", "material.specular.b", "material.specular.g", "material.specular.r"}},
+};
+
+bool isFraction(std::string_view callee, std::string_view parameter) {
+  for (const Fractions& f : kFractions) {
+    if (f.callee != callee) continue;
+    return std::find(f.parameters.begin(), f.parameters.end(), parameter) != f.parameters.end();
+  }
+  return false;
+}
+
+constexpr double kParts = 255;
+
+// Whole numbers from 0 to 255 as "#rrggbb"; empty where they are none, or could be a slip near 1.
+std::string colourOfParts(std::span<const double> numbers) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  constexpr double kLeastOfParts = 10;
+  if (numbers.size() < 3) return {};
+  const std::span<const double> rgb = numbers.first(3);
+  if (*std::max_element(rgb.begin(), rgb.end()) < kLeastOfParts) return {};
+  std::string out = "#";
+  for (const double v : rgb) {
+    if (!(v >= 0 && v <= kParts)) return {};
+    const auto whole = static_cast<size_t>(v);
+    if (static_cast<double>(whole) != v) return {};
+    out += kDigits[whole / 16];
+    out += kDigits[whole % 16];
+  }
+  return out;
+}
+
+// What was meant by a number that is to lie between 0 and 1.
+std::string hintOfFraction(double v) {
+  constexpr double kPercent = 100;
+  if (v > 1 && v <= kPercent && v == static_cast<int>(v)) {
+    return "write 0 to 1: " + shortestText(v / kPercent) + " for " + shortestText(v) + " %";
+  }
+  return v > kPercent && v <= kParts ? "write 0 to 1; of 255 parts, divide by 255" : "write 0 to 1";
 }
 
 }  // namespace
@@ -83,6 +142,58 @@ bool Analysis::hasTerm(NodeId node, std::string_view name) const {
   return std::any_of(inside.begin(), inside.end(), [&](NodeId n) { return hasTerm(n, name); });
 }
 
+// The number that a node holds, where it is known and plain.
+std::optional<double> Analysis::writtenNumber(NodeId node) {
+  if (node == kNoNode) return std::nullopt;
+  const Value v = writtenValue(node);
+  return v.type == ValueType::Float ? std::optional(v.number) : std::nullopt;
+}
+
+void Analysis::warnOfFraction(NodeId node, const std::string& what, double number,
+                              std::string hint) {
+  warning("bad-argument", tree().span(node),
+          what + " goes from 0 to 1, and " + shortestText(number) + " lies beyond",
+          std::move(hint));
+}
+
+// One warning a call, at the first number beyond.
+void Analysis::checkFractions(std::string_view callee, const Signature& signature,
+                              std::span<const NodeId> args) {
+  std::vector<double> numbers;
+  NodeId beyond = kNoNode;
+  double number = 0;
+  std::string which;
+  for (size_t i = 0; i < args.size(); ++i) {
+    const ParamSpec& param = *signature.paramAt(i);
+    const std::optional<double> v =
+        isFraction(callee, param.name) ? writtenNumber(args[i]) : std::nullopt;
+    if (!v) continue;
+    numbers.push_back(*v);
+    if (beyond != kNoNode || (*v >= 0 && *v <= 1)) continue;
+    beyond = args[i];
+    number = *v;
+    which = quote(param.name) + " of " + quote(callee);
+  }
+  if (beyond == kNoNode) return;
+  // Of hue, saturation and value the first is none.
+  const bool rgb = isFraction(callee, signature.paramAt(0)->name);
+  const std::string colour = rgb ? colourOfParts(numbers) : "";
+  warnOfFraction(beyond, which, number,
+                 colour.empty() ? hintOfFraction(number)
+                                : "divide parts of 255 by 255; the colour is \"" + colour + "\"");
+}
+
+// set(material.opacity, 50)
+void Analysis::checkSetFraction(std::span<const NodeId> args) {
+  if (args.size() != 2) return;
+  const Resolution& place = module().at(args[0]);
+  if (place.kind != RefKind::ShapeAttribute) return;
+  if (!isFraction("set", place.spec.attribute->name)) return;
+  const std::optional<double> v = writtenNumber(args[1]);
+  if (!v || (*v >= 0 && *v <= 1)) return;
+  warnOfFraction(args[1], quote(place.spec.attribute->name), *v, hintOfFraction(*v));
+}
+
 void Analysis::checkWrittenCall(NodeId node, std::string_view callee, const Signature& signature,
                                 std::span<const NodeId> args) {
   const auto named = module().namedArguments.find(node);
@@ -92,6 +203,7 @@ void Analysis::checkWrittenCall(NodeId node, std::string_view callee, const Sign
   for (size_t i = 0; i < order.size(); ++i) {
     if (order[i] != kNoNode) checkWrittenValue(order[i], *signature.paramAt(i), callee);
   }
+  checkFractions(callee, signature, order);
   for (size_t p = 0; p < signature.params.size(); ++p) {
     const ParamSpec& param = signature.params[p];
     const bool given = p < order.size() && order[p] != kNoNode;
@@ -129,6 +241,9 @@ void Analysis::checkWrittenValues(ModuleId firstModule) {
         checkWrittenCall(node, op.name, op.signatures[r.signature], args);
         if (op.block != BlockKind::Split) continue;
         for (const NodeId block : tree().children(node).subspan(1)) checkWrittenSizes(block, op);
+      } else if (r.kind == RefKind::Operation) {
+        const auto named = module().namedArguments.find(node);
+        checkSetFraction(named == module().namedArguments.end() ? args : named->second);
       } else if (r.kind == RefKind::BuiltinFunction && r.spec.function) {
         const FunctionSpec& f = *r.spec.function;
         checkWrittenCall(node, f.name, f.signatures[r.signature], args);
