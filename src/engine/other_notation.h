@@ -11,9 +11,13 @@
 
 namespace gable {
 
-/// What to say of a text with mistakes as CGA, many of them if it is called so, when it reads
-/// as one of the others: without mistakes, or with far fewer. Code: rules-notation.
-std::optional<Error> asOtherNotation(const std::string& path, const Sources& sources, uint32_t file,
-                                     lang::FileLoader& loader, const Diagnostics& asCga);
+struct Dialect;
+
+/// What to say of a text with mistakes as the notation `read`, null for CGA, when it reads as
+/// another one: without mistakes, or with far fewer; a text whose name says its notation must have
+/// many. `found`: what was found as `read`. Code: rules-notation.
+std::optional<Error> asOtherNotation(const std::string& path, const Dialect* read,
+                                     const Sources& sources, uint32_t file,
+                                     lang::FileLoader& loader, const Diagnostics& found);
 
 }  // namespace gable

@@ -258,8 +258,9 @@ std::shared_ptr<const Rules::Impl> parsed(const std::string& text, const Home& h
   const uint32_t file = impl->sources.add(name, text);
   ProjectLoader loader(*impl->project, settings);
   lang::Tree tree = parseAs(dialect.value(), impl->sources, file, loader, diagnostics);
-  if (!settings.dialect && !dialect.value()) {
-    if (const auto other = asOtherNotation(path, impl->sources, file, loader, diagnostics)) {
+  if (!settings.dialect) {
+    if (const auto other =
+            asOtherNotation(path, dialect.value(), impl->sources, file, loader, diagnostics)) {
       impl->diagnostics.push_back(diagnosticOf(*other));
       return impl;
     }
@@ -393,22 +394,22 @@ Converted convert(const std::string& text, const std::string& path, const LoadSe
     Diagnostics diagnostics;
     const Project project(rootOf(settings, {path, nullptr}), settings.search);
     const uint32_t file = sources.add(project.projectPath(path), text);
+    ProjectLoader loader(project, settings);
     if (!dialect.value()) {
       out.text = lang::format(sources, file, diagnostics);
-      ProjectLoader loader(project, settings);
-      const auto other = settings.dialect
-                             ? std::nullopt
-                             : asOtherNotation(path, sources, file, loader, diagnostics);
-      if (other) {
-        out.diagnostics.push_back(diagnosticOf(*other));
-        return out;
-      }
     } else {
-      ProjectLoader loader(project, settings);
       const lang::Tree tree = parseAs(dialect.value(), sources, file, loader, diagnostics);
       const std::vector<lang::Remark> remarks = remarksOf(sources.text(file));
       const uint32_t printed = sources.add("converted.cga", lang::print(tree, remarks));
       if (!diagnostics.hasErrors()) out.text = lang::format(sources, printed, diagnostics);
+    }
+    const auto other = settings.dialect ? std::nullopt
+                                        : asOtherNotation(path, dialect.value(), sources, file,
+                                                          loader, diagnostics);
+    if (other) {
+      out.text.clear();
+      out.diagnostics.push_back(diagnosticOf(*other));
+      return out;
     }
     diagnostics.sortByPlace();
     out.diagnostics = listOf(diagnostics, sources);

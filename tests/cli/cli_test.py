@@ -106,6 +106,22 @@ class Options(Case):
         self.assertNotIn("rules-notation", self.run_gable("check", "x.cga", status=WRONG))
         self.put("x.cga", "Lot --> X.")
         self.run_gable("convert", "x.cga", says="is CGA already")
+        # A name may say another notation than the text.
+        texts = {"cga": "attr h = 3\nLot --> extrude(h) comp(f) { side : Wall. | top : Roof. }\n"}
+        for name, option in (("gbbg/gbbg.gbbg", "gbbg"), ("park/square.park", "park"), ("progen3d/progen3d.grammar", "progen3d")):
+            texts[option] = (root / "examples" / name).read_text()
+        for ending, own in (("gbbg", "gbbg"), ("park", "park"), ("grammar", "progen3d")):
+            for notation, text in texts.items():
+                if notation == own:
+                    continue
+                self.put(f"x.{ending}", text)
+                for command in (["check", f"x.{ending}"], ["convert", f"x.{ending}"]):
+                    told = self.run_gable(*command, status=WRONG, says=f"--dialect {notation}")
+                    self.assertEqual(told.count("error: "), 1, told)
+            self.put(f"x.{ending}", texts[own] + "\n} slip {\n")
+            # Signs without a meaning are no errors there.
+            status = DONE if ending == "grammar" else WRONG
+            self.assertNotIn("rules-notation", self.run_gable("check", f"x.{ending}", status=status))
 
     def testAnEmptyModelIsTold(self):
         self.put("x.cga", "Fence --> NIL\nHouse --> extrude(3) X.\n")
