@@ -26,7 +26,12 @@ struct OptionRow {
   int most;
   std::vector<std::string> formats;
   void (*set)(WriteSettings& settings, int value);
+  /// Of the numbers besides 0.
+  int least = 1;
 };
+
+// An atlas of fewer pixels a side has no room for two plain colours with their borders.
+constexpr int kLeastAtlas = 64;
 
 // Values are places in the words, or numbers.
 const std::vector<OptionRow>& optionRows() {
@@ -98,7 +103,8 @@ const std::vector<OptionRow>& optionRows() {
        {},
        8192,
        withPictures,
-       [](WriteSettings& s, int v) { s.atlas = static_cast<uint32_t>(v); }},
+       [](WriteSettings& s, int v) { s.atlas = static_cast<uint32_t>(v); },
+       kLeastAtlas},
   };
   return rows;
 }
@@ -125,13 +131,16 @@ void setNumber(const OptionRow& row, const std::string& value, ChosenWriting& ou
   int number = -1;
   const char* end = value.data() + value.size();
   const auto read = std::from_chars(value.data(), end, number);
-  if (read.ec == std::errc() && read.ptr == end && number >= 0 && number <= row.most) {
+  const bool whole = read.ec == std::errc() && read.ptr == end;
+  if (whole && (number == 0 || (number >= row.least && number <= row.most))) {
     row.set(out.settings, number);
     return;
   }
   say(out.diagnostics, Severity::Error, kUnknown,
       "the option '" + std::string(row.name) + "' takes no '" + value + "'",
-      "it takes a whole number from 0 to " + std::to_string(row.most));
+      (row.least > 1 ? "it takes 0, or a whole number from " + std::to_string(row.least)
+                     : std::string("it takes a whole number from 0")) +
+          " to " + std::to_string(row.most));
 }
 
 void set(const std::string& name, const std::string& value, ChosenWriting& out) {

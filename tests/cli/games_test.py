@@ -192,6 +192,9 @@ class Games(Case):
         told = json.loads(self.run_gable("generate", "x.cga", "--shapes", "lots.geojson", "-o", "atlas.glb", "--instancing", "shapes",
                                          "--atlas", "512", "--stats", "-"))
         self.assertEqual(told["atlas"], {"merged": 3, "into": 1, "repeating": 0, "special": 0, "large": 0})
+        for side in ("1", "7", "63"):
+            self.run_gable("generate", "x.cga", "-o", "small.glb", "--atlas", side, status=USAGE,
+                           says="it takes 0, or a whole number from 64 to 8192")
         glb = Glb(self.folder / "atlas.glb")
         self.assertEqual([m["name"] for m in glb.json["materials"]], ["atlas"])
         self.assertEqual(sum(len(m["primitives"]) for m in glb.json["meshes"]), len(glb.json["meshes"]))
