@@ -306,8 +306,14 @@ int writeReportTables(const gable::Model& model, const ReportArguments& argument
     const std::string table = gable::reportsCsv(model.statistics().reports);
     if (const int status = writeText(arguments.all, table, "table")) return status;
   }
-  if (arguments.byShape.empty()) return kExitDone;
-  return writeText(arguments.byShape, gable::reportsCsv(model.reportsByShape()), "tableByShape");
+  if (arguments.byShape.empty() && arguments.rows.empty()) return kExitDone;
+  const std::vector<gable::ShapeReports> shapes = model.reportsByShape();
+  if (!arguments.byShape.empty()) {
+    const std::string table = gable::reportsCsv(shapes);
+    if (const int status = writeText(arguments.byShape, table, "tableByShape")) return status;
+  }
+  if (arguments.rows.empty()) return kExitDone;
+  return writeText(arguments.rows, gable::reportsTable(shapes), "tableOfRows");
 }
 
 int writeCounts(const std::string& path, const std::string& text) {

@@ -116,8 +116,8 @@ bool readText(const std::string& path, std::string& text);
 int writeText(const std::string& path, const std::string& text, const char* member = "text");
 /// Tables of what the rules reported, to the files that are named; an exit status.
 struct ReportArguments {
-  std::string all, byShape;
-  bool any() const { return !all.empty() || !byShape.empty(); }
+  std::string all, byShape, rows;
+  bool any() const { return !all.empty() || !byShape.empty() || !rows.empty(); }
 };
 int writeReportTables(const gable::Model& model, const ReportArguments& arguments);
 /// The same for --stats: nothing without a path, nor for "-" with --json, whose answer has the

@@ -90,8 +90,8 @@ int runGenerate(const GenerateArguments& arguments) {
     return forSeeds(arguments.count, arguments.derive.seed, [&](const std::string& seed) {
       GenerateArguments each = arguments;
       each.derive.seed = seed;
-      for (std::string* path :
-           {&each.output, &each.stats, &each.reports.all, &each.reports.byShape}) {
+      for (std::string* path : {&each.output, &each.stats, &each.reports.all, &each.reports.byShape,
+                                &each.reports.rows}) {
         *path = withSeed(*path, seed);
       }
       return generateOnce(each);

@@ -225,6 +225,8 @@ void addReports(CLI::App* app, ReportArguments& a) {
   app->add_option("--reports", a.all, "Write reports as CSV to a file, or - for stdout");
   app->add_option("--reports-by-shape", a.byShape,
                   "The same with lines of its own for each initial shape");
+  app->add_option("--report-rows", a.rows,
+                  "Write one row for each initial shape, with its id and a column for each report");
 }
 
 void addGenerate(CLI::App& app, GenerateArguments& a, int& status) {

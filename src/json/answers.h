@@ -53,6 +53,9 @@ void writeRuleFile(JsonWriter& json, const Rules& rules, const std::vector<Named
 std::string reportsCsv(const std::vector<ReportSummary>& reports);
 /// The same for each initial shape, with the columns `shape` and `id` before the others.
 std::string reportsCsv(const std::vector<ShapeReports>& shapes);
+/// One line for each initial shape that reported something: its name, its id, and a column for each
+/// key, with the sum of its numbers or with its texts.
+std::string reportsTable(const std::vector<ShapeReports>& shapes);
 
 /// A number, a text, a bool, null, or an array of them.
 void writeValue(JsonWriter& json, const RuleValue& value);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 
+#include <cmath>
+#include <set>
+#include <string_view>
 #include <utility>
 
 #include "base/number.h"
@@ -190,6 +193,15 @@ std::string csvText(const std::string& text) {
   return out + "\"";
 }
 
+// To six places: what sums have beyond is rounding. Small numbers keep theirs.
+std::string csvNumber(double v) {
+  constexpr double kSmall = 1e-3;
+  constexpr int kPlaces = 6;
+  if (std::fabs(v) < kSmall) return shortestText(v);
+  char text[kNumberRoom];
+  return std::string(text, writeFixed(text, v, kPlaces));
+}
+
 constexpr const char* kReportColumns = "key,value,count,sum,average,minimum,maximum\n";
 
 void addLines(const std::string& begin, const std::vector<ReportSummary>& reports,
@@ -204,7 +216,7 @@ void addLines(const std::string& begin, const std::vector<ReportSummary>& report
     out += key + ",," + std::to_string(count);
     const double average = r.numbers->sum / static_cast<double>(count);
     for (const double x : {r.numbers->sum, average, r.numbers->min, r.numbers->max}) {
-      out += "," + shortestText(x);
+      out += "," + csvNumber(x);
     }
     out += "\n";
   }
@@ -222,6 +234,40 @@ std::string reportsCsv(const std::vector<ShapeReports>& shapes) {
   std::string out = std::string("shape,id,") + kReportColumns;
   for (const ShapeReports& s : shapes) {
     addLines(csvText(s.name) + "," + csvText(s.id) + ",", s.reports, out);
+  }
+  return out;
+}
+
+namespace {
+
+// The sum of numbers; of texts all there are.
+std::string cellOf(const ReportSummary& r) {
+  if (r.numbers) return csvNumber(r.numbers->sum);
+  std::string out;
+  for (const auto& [value, count] : r.values) out += (out.empty() ? "" : "; ") + value;
+  return csvText(out);
+}
+
+}  // namespace
+
+std::string reportsTable(const std::vector<ShapeReports>& shapes) {
+  std::set<std::string_view> keys;
+  for (const ShapeReports& s : shapes) {
+    for (const ReportSummary& r : s.reports) keys.insert(r.key);
+  }
+  std::string out = "shape,id";
+  for (const std::string_view key : keys) out += "," + csvText(std::string(key));
+  out += "\n";
+  for (const ShapeReports& s : shapes) {
+    if (s.reports.empty()) continue;
+    out += csvText(s.name) + "," + csvText(s.id);
+    // Both are sorted by key.
+    auto report = s.reports.begin();
+    for (const std::string_view key : keys) {
+      out += ",";
+      if (report != s.reports.end() && report->key == key) out += cellOf(*report++);
+    }
+    out += "\n";
   }
   return out;
 }

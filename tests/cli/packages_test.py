@@ -301,6 +301,17 @@ class Info(Case):
             ["b,c", "", "kind", "big", "1", "", "", "", ""],
             ["b,c", "", "n", "", "2", "6", "3", "1", "5"]])
 
+    def testReportsAreARowForEachShape(self):
+        self.put("two.geojson", self.TWO)
+        self.put("n.cga", self.RULE.replace("Lot -->", 'Lot --> report("area", n * 1.1) report("tiny", n * 1e-9)'))
+        self.gable("generate", "n.cga", "--shapes", "two.geojson", "-o", "x.glb", "--report-rows", "x.csv", "--reports-by-shape", "-")
+        rows = list(csv.reader(io.StringIO((self.folder / "x.csv").read_text())))
+        self.assertEqual(rows, [["shape", "id", "area", "kind", "n", "tiny"],
+                                ["A1", "A1", "2.2", "small", "3", "2e-09"],
+                                ["b,c", "", "5.5", "big", "6", "5e-09"]])
+        told = json.loads(self.gable("generate", "n.cga", "--shapes", "two.geojson", "-o", "x.glb", "--report-rows", "-", "--json"))
+        self.assertEqual(told["tableOfRows"], (self.folder / "x.csv").read_text())
+
     def testABoxTakesThePartOfAMap(self):
         self.put("two.geojson", self.TWO)
         self.put("n.cga", self.RULE)
