@@ -94,6 +94,16 @@ bool parseSunAt(const std::string& text, gable::SunTime& time) {
   return parseDate(parts[parts.size() - 2], time) && parseClock(parts.back(), time);
 }
 
+/// What to write for a place whose longitude stands first; empty where that is not what is wrong.
+std::string unswappedSunAt(const std::string& text) {
+  std::vector<std::string> parts = partsOf(text);
+  if (parts.size() != 4) return {};
+  std::swap(parts[0], parts[1]);
+  const std::string out = parts[0] + "," + parts[1] + "," + parts[2] + "," + parts[3];
+  gable::SunTime time;
+  return parseSunAt(out, time) ? out : std::string();
+}
+
 /// "front", "side", "z=3" or "-z=3".
 bool parseCut(const std::string& text, gable::PictureSettings& s) {
   using Side = gable::PictureSettings::CutSide;
@@ -120,6 +130,9 @@ int lightSettings(const RenderArguments& a, gable::PictureSettings& s) {
   if (!a.look.empty()) s.look = gable::lookNamed(a.look).value_or(s.look);
   gable::SunTime time;
   if (!a.sunAt.empty() && !parseSunAt(a.sunAt, time)) {
+    if (const std::string other = unswappedSunAt(a.sunAt); !other.empty()) {
+      return wrongOption("--sun-at", "the latitude first: " + other, a.sunAt);
+    }
     return wrongOption("--sun-at",
                        "latitude,longitude,date,hour, such as 48.86,2.35,2024-06-21,18:30 or "
                        "2024-06-21,16:30Z",

@@ -62,6 +62,7 @@ class Pictures(Case):
 
     def testTheSunOfAPlaceNeedsAPlace(self):
         self.draw("a.png", "--sun-at", "2024-06-21,12", status=USAGE, says="[picture-settings]")
+        self.draw("a.png", "--sun-at", "116.4,39.9,2024-06-21,12", status=USAGE, says="the latitude first: 39.9,116.4,2024-06-21,12,")
         noon = self.draw("noon.png", "--sun-at", "48.86,2.35,2024-06-21,13:50+02:00")
         self.assertEqual(noon, self.draw("same.png", "--sun-at", "48.86,2.35,2024-06-21,11:50Z"))
         self.assertNotEqual(noon, self.draw("night.png", "--sun-at", "48.86,2.35,2024-06-21,01:00"))
