@@ -9,6 +9,7 @@ import subprocess
 import sys
 import unittest
 import zlib
+from pathlib import Path
 
 from cli_test import DONE, FILE, GABLE, USAGE, WRONG, Case
 
@@ -216,6 +217,21 @@ class Dataset(Case):
             self.assertAlmostEqual(fy * y / z + cy, 20 - fx * 2 / 7)
             self.assertLess(item["camera"]["halfWidth"], 0.4664)
             self.assertNotIn("model", item)
+
+    def testAllOfAnExampleWithLabelsHasOne(self):
+        rules = Path("examples/haussmann/haussmann.cga").resolve()
+        for more in ((), ("--set", "detail=false"), ("--lot", "50x50")):
+            told = json.loads(subprocess.run([str(GABLE), "info", str(rules), "--json"], stdout=subprocess.PIPE, check=True).stdout)
+            labelled = {r["name"] for r in told["rules"] if any(a["name"] == "Label" for a in r["annotations"])}
+            traced = subprocess.run([str(GABLE), "trace", str(rules), "--json", *more], stdout=subprocess.PIPE, check=True).stdout
+            open_, without = [(tree, ()) for tree in json.loads(traced)["trees"]], set()
+            while open_:
+                node, above = open_.pop()
+                path = (*above, node["shape"])
+                if node.get("leaf") and not labelled & set(path):
+                    without.add(" > ".join(path))
+                open_ += [(child, path) for child in node["children"]]
+            self.assertEqual(without, set(), more)
 
     def testZoomBringsTheModelNearer(self):
         self.make("a", "--count", "1", "--model", "none")
