@@ -7,7 +7,7 @@ import unittest
 from pathlib import Path
 
 import check
-from checks import diagnostics, layers, libm, links, op_names, ops, pictures, sizes, words
+from checks import diagnostics, layers, libm, links, op_names, ops, pictures, sizes, types, words
 from checks.tree import Tree, code_of, comments_of
 
 HEAD = "// SPDX-License-Identifier: Apache-2.0\n// SPDX-FileCopyrightText: The Gable authors\n"
@@ -42,6 +42,22 @@ class CheckCase(unittest.TestCase):
 
     def messages(self, module):
         return [str(finding) for finding in module.check(Tree(self.root))]
+
+
+class TypesTest(CheckCase):
+    def testRejectsOneNameForTwoTypes(self):
+        self.write("src/base/a.h", "namespace gable {\nstruct Plate { int a; };\nclass Free;\n}\n")
+        self.write("src/geom/b.cpp", "namespace gable {\nnamespace {\nint c;\n}\nenum class Plate : int { A };\n}\n")
+        self.assertEqual(self.messages(types),
+                         ["src/geom/b.cpp:5: 'gable::Plate' is a type of src/base/a.h as well; name it otherwise, or put "
+                          "it into an unnamed namespace"])
+
+    def testAcceptsWhatTheLinkerKeepsApart(self):
+        self.write("src/base/a.h", "namespace gable {\nstruct Plate { struct Part {}; struct Kept; };\n}\n")
+        self.write("src/geom/b.cpp", "namespace gable {\nnamespace {\nstruct Plate {};\n}\n"
+                                     "struct Plate::Kept {};\nvoid f() { struct Plate {}; }\nclass Plate;\n}\n"
+                                     "namespace gable::rt {\nstruct Plate {};\n}\n")
+        self.assertEqual(self.messages(types), [])
 
 
 class LayersTest(CheckCase):

@@ -192,7 +192,7 @@ class FullFiller {
     }
   }
 
-  const Surface& surfaceOf(uint32_t scene, uint32_t mesh) {
+  const DrawSurface& surfaceOf(uint32_t scene, uint32_t mesh) {
     // Meshes of one leaf come and go; the primitives and those that follow one another stay.
     constexpr uint64_t kMostVertices = 1'000'000;
     const std::pair<uint32_t, uint32_t> key{scene, mesh};
@@ -215,7 +215,7 @@ class FullFiller {
     const Mesh& mesh = *scene.meshes[leaf.mesh];
     uint32_t uvMask = 0;
     for (int s = 0; s < kUvSets; ++s) uvMask |= mesh.hasUv(s) ? 1u << s : 0;
-    const Surface& surface = surfaceOf(l.scene, leaf.mesh);
+    const DrawSurface& surface = surfaceOf(l.scene, leaf.mesh);
     work(surface.corners.size());
     for (const SurfacePart& part : surface.parts) {
       const uint32_t material = materialIndexOf(scene, leaf, part.slot);
@@ -231,7 +231,7 @@ class FullFiller {
     }
   }
 
-  void setHeads(const TileLeaf& l, const Leaf& leaf, const Mesh& mesh, const Surface& surface,
+  void setHeads(const TileLeaf& l, const Leaf& leaf, const Mesh& mesh, const DrawSurface& surface,
                 const SurfaceFace& face, const Vec3& center, const std::array<uint32_t, 2>& color) {
     heads_.clear();
     for (uint32_t v = face.firstVertex; v < face.firstVertex + face.vertexCount; ++v) {
@@ -241,8 +241,9 @@ class FullFiller {
     }
   }
 
-  void addFace(const Leaf& leaf, const Mesh& mesh, const Surface& surface, const SurfaceFace& face,
-               const VertexLayout& layout, Filler& filler, TilePrimitive& primitive) {
+  void addFace(const Leaf& leaf, const Mesh& mesh, const DrawSurface& surface,
+               const SurfaceFace& face, const VertexLayout& layout, Filler& filler,
+               TilePrimitive& primitive) {
     if (!std::all_of(heads_.begin(), heads_.end(),
                      [](const Head& h) { return isFinite(placeOf(h)); })) {
       return;
@@ -274,7 +275,7 @@ class FullFiller {
   // By scene and material: the index of its look.
   std::vector<std::vector<uint32_t>> looks_;
   FaceTriangulator triangulator_;
-  std::map<std::pair<uint32_t, uint32_t>, Surface> surfaces_;
+  std::map<std::pair<uint32_t, uint32_t>, DrawSurface> surfaces_;
   uint64_t cached_ = 0;
   std::vector<Head> heads_;
 };

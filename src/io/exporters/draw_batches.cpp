@@ -77,7 +77,7 @@ Batch& BatchBuilder::batchOf(const BatchKey& key, uint32_t paint) {
 }
 
 // Faces of what is laid have coordinates of their own.
-const Surface& BatchBuilder::surfaceOf(uint32_t mesh, bool apart) {
+const DrawSurface& BatchBuilder::surfaceOf(uint32_t mesh, bool apart) {
   if (plan_.isSingle(mesh)) {
     single_.build(*scene_.meshes[mesh], triangulator_, apart);
     return single_;
@@ -90,7 +90,7 @@ const Surface& BatchBuilder::surfaceOf(uint32_t mesh, bool apart) {
 void BatchBuilder::add(const Leaf& leaf, const Frame& world, uint32_t number) {
   const bool often = plan_.isOften(leaf);
   const bool mirrored = leaf.scale.x * leaf.scale.y * leaf.scale.z < 0;
-  const Surface& surface = surfaceOf(leaf.mesh, plan_.isLaidLeaf(leaf));
+  const DrawSurface& surface = surfaceOf(leaf.mesh, plan_.isLaidLeaf(leaf));
   if (!often) work(surface.corners.size());
   for (const SurfacePart& part : surface.parts) {
     const uint32_t paint = plan_.paintOf(leaf, part.slot);
@@ -113,7 +113,7 @@ void BatchBuilder::add(const Leaf& leaf, const Frame& world, uint32_t number) {
   }
 }
 
-void BatchBuilder::addPart(DrawGeometry& to, uint32_t mesh, const Surface& surface,
+void BatchBuilder::addPart(DrawGeometry& to, uint32_t mesh, const DrawSurface& surface,
                            const SurfacePart& part, const Frame& world, const Vec3& scale,
                            bool laid) {
   const Mesh& m = *scene_.meshes[mesh];

@@ -49,8 +49,8 @@ class BatchBuilder {
  private:
   void reserve(Batch& batch, const BatchKey& key) const;
   Batch& batchOf(const BatchKey& key, uint32_t paint);
-  const Surface& surfaceOf(uint32_t mesh, bool apart);
-  void addPart(DrawGeometry& to, uint32_t mesh, const Surface& surface, const SurfacePart& part,
+  const DrawSurface& surfaceOf(uint32_t mesh, bool apart);
+  void addPart(DrawGeometry& to, uint32_t mesh, const DrawSurface& surface, const SurfacePart& part,
                const Frame& world, const Vec3& scale, bool laid);
 
   const DrawPlan& plan_;
@@ -60,8 +60,8 @@ class BatchBuilder {
   std::vector<bool> met_;
   std::vector<uint32_t> looks_;
   /// Of meshes that stand more than once; of the others only the last.
-  std::map<std::pair<uint32_t, bool>, Surface> surfaces_;
-  Surface single_;
+  std::map<std::pair<uint32_t, bool>, DrawSurface> surfaces_;
+  DrawSurface single_;
   std::map<BatchKey, DrawGeometry> geometries_;
   std::map<BatchKey, Batch> batches_;
   BatchKey lastKey_;

@@ -280,9 +280,9 @@ TEST(Plan, nestedScenesAreShownWhole) {
   expectWhole(Scene{});
 }
 
-TEST(Surface, verticesOfSmoothMeshesAreShared) {
+TEST(DrawSurface, verticesOfSmoothMeshesAreShared) {
   FaceTriangulator t;
-  Surface s;
+  DrawSurface s;
   const Mesh ball = testing::ball(10, 12);
   s.build(ball, t);
   ASSERT_EQ(s.parts.size(), 1u);
@@ -294,7 +294,7 @@ TEST(Surface, verticesOfSmoothMeshesAreShared) {
   }
 }
 
-TEST(Surface, partsFollowTheSlots) {
+TEST(DrawSurface, partsFollowTheSlots) {
   MeshBuilder b;
   std::vector<uint32_t> ids;
   for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{1, 1, 0}, Vec3{0, 1, 0}}) {
@@ -310,7 +310,7 @@ TEST(Surface, partsFollowTheSlots) {
   EXPECT_EQ(tallies[1].corners, 8u);
   EXPECT_EQ(tallies[1].triangles, 4u);
   FaceTriangulator t;
-  Surface s;
+  DrawSurface s;
   s.build(m, t);
   ASSERT_EQ(s.parts.size(), 3u);
   EXPECT_EQ(s.part(5)->faceCount, 2u);
@@ -318,7 +318,7 @@ TEST(Surface, partsFollowTheSlots) {
   EXPECT_EQ(s.part(2), nullptr);
 }
 
-TEST(Surface, tangentsRunAlongTheTexture) {
+TEST(DrawSurface, tangentsRunAlongTheTexture) {
   MeshBuilder b;
   std::vector<uint32_t> ids;
   b.beginFace();
@@ -329,7 +329,7 @@ TEST(Surface, tangentsRunAlongTheTexture) {
   }
   const Mesh m = b.take();
   FaceTriangulator t;
-  Surface s;
+  DrawSurface s;
   s.build(m, t);
   const Tangents tangents = tangentsOf(m, s, 0);
   for (size_t v = 0; v < 4; ++v) {
@@ -338,7 +338,7 @@ TEST(Surface, tangentsRunAlongTheTexture) {
   }
 }
 
-TEST(Surface, scaledNormalsStayOutside) {
+TEST(DrawSurface, scaledNormalsStayOutside) {
   const Vec3 n = normalized({1, 1, 0});
   EXPECT_NEAR(length(scaledNormal(n, {2, 1, 1}) - normalized({1, 2, 0})), 0, 1e-12);
   EXPECT_EQ(scaledNormal({0, 1, 0}, {3, 0, 2}), (Vec3{0, 1, 0}));

@@ -57,14 +57,14 @@ std::vector<SlotTally> slotTallies(const Mesh& m) {
   return out;
 }
 
-const SurfacePart* Surface::part(uint16_t slot) const {
+const SurfacePart* DrawSurface::part(uint16_t slot) const {
   const auto p = std::lower_bound(parts.begin(), parts.end(), slot,
                                   [](const SurfacePart& a, uint16_t s) { return a.slot < s; });
   return p != parts.end() && p->slot == slot ? &*p : nullptr;
 }
 
-void Surface::addFace(const Mesh& m, size_t face, const std::vector<Vec3>& cornerNormals,
-                      FaceTriangulator& triangulator) {
+void DrawSurface::addFace(const Mesh& m, size_t face, const std::vector<Vec3>& cornerNormals,
+                          FaceTriangulator& triangulator) {
   scratch_.clear();
   triangulator.add(m, face, scratch_);
   if (scratch_.empty()) return;
@@ -95,7 +95,7 @@ void Surface::addFace(const Mesh& m, size_t face, const std::vector<Vec3>& corne
 }
 
 // Open addressing over the part's vertices; the first of equal ones stays, in order.
-void Surface::mergeVertices(const Mesh& m, SurfacePart& part) {
+void DrawSurface::mergeVertices(const Mesh& m, SurfacePart& part) {
   if (part.faceCount < 2) return;
   const SurfaceFace first = faces[part.firstFace];
   const auto vertexCount = static_cast<uint32_t>(corners.size()) - first.firstVertex;
@@ -139,7 +139,7 @@ void Surface::mergeVertices(const Mesh& m, SurfacePart& part) {
   part.faceCount = 1;
 }
 
-void Surface::build(const Mesh& m, FaceTriangulator& triangulator, bool apart) {
+void DrawSurface::build(const Mesh& m, FaceTriangulator& triangulator, bool apart) {
   corners.clear();
   normals.clear();
   triangles.clear();
@@ -169,7 +169,7 @@ void Surface::build(const Mesh& m, FaceTriangulator& triangulator, bool apart) {
   }
 }
 
-FaceAxes layingOf(const Mesh& m, const Surface& surface, const SurfaceFace& face,
+FaceAxes layingOf(const Mesh& m, const DrawSurface& surface, const SurfaceFace& face,
                   const Frame& frame, const Vec3& scale) {
   const auto at = [&](uint32_t vertex) {
     return frame.point(scaled(m.at(surface.corners[face.firstVertex + vertex]), scale));
@@ -184,7 +184,7 @@ FaceAxes layingOf(const Mesh& m, const Surface& surface, const SurfaceFace& face
   return layingAxes(unitOf(mirrored ? -normal : normal));
 }
 
-Tangents tangentsOf(const Mesh& m, const Surface& surface, int uvSet) {
+Tangents tangentsOf(const Mesh& m, const DrawSurface& surface, int uvSet) {
   Tangents out;
   out.u.resize(surface.corners.size());
   out.v.resize(surface.corners.size());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Surface: the triangles of a mesh with the vertices that writers of triangle formats need: one a
-// corner, with its normal; faces grouped by material slot.
+// DrawSurface: the triangles of a mesh with the vertices that writers of triangle formats need: one
+// a corner, with its normal; faces grouped by material slot.
 #pragma once
 
 #include <array>
@@ -42,7 +42,7 @@ struct SurfacePart {
   uint32_t firstFace = 0, faceCount = 0;
 };
 
-class Surface {
+class DrawSurface {
  public:
   /// The mesh corner of each vertex: its position and uv coordinates.
   std::vector<uint32_t> corners;
@@ -68,7 +68,7 @@ class Surface {
 
 /// How a material that counts in metres lies on a face of a placed mesh: the axes are those of the
 /// frame around it.
-FaceAxes layingOf(const Mesh& m, const Surface& surface, const SurfaceFace& face,
+FaceAxes layingOf(const Mesh& m, const DrawSurface& surface, const SurfaceFace& face,
                   const Frame& frame, const Vec3& scale);
 
 /// The directions in which a uv set grows over a mesh, at each vertex of a surface: not unit, in
@@ -76,6 +76,6 @@ FaceAxes layingOf(const Mesh& m, const Surface& surface, const SurfaceFace& face
 struct Tangents {
   std::vector<Vec3> u, v;
 };
-Tangents tangentsOf(const Mesh& m, const Surface& surface, int uvSet);
+Tangents tangentsOf(const Mesh& m, const DrawSurface& surface, int uvSet);
 
 }  // namespace gable

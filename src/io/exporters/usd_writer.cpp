@@ -99,7 +99,7 @@ class UsdWriter {
                       const Vec3& scale);
   void writeMeshes(uint32_t unit, UsdNames& names);
   std::vector<MeshGroup> groupsOf();
-  const Surface& surfaceOf(uint32_t mesh, bool laid);
+  const DrawSurface& surfaceOf(uint32_t mesh, bool laid);
   void add(const PlannedLeaf& planned, uint16_t slot, uint32_t binding, MeshText& mesh);
   void writeMesh(const MeshGroup& group, const std::string& name, const MeshText& mesh);
   void writePoints(const char* head, size_t count, const std::function<Vec3(size_t)>& at,
@@ -125,8 +125,8 @@ class UsdWriter {
   FaceTriangulator triangulator_;
   // Meshes that the unit draws twice, be it in two slots, are kept: by mesh, and whether laid.
   std::map<uint32_t, uint32_t> draws_;
-  std::map<std::pair<uint32_t, bool>, Surface> surfaces_;
-  Surface single_;
+  std::map<std::pair<uint32_t, bool>, DrawSurface> surfaces_;
+  DrawSurface single_;
   uint64_t brokenFaces_ = 0;
 };
 
@@ -249,7 +249,7 @@ std::vector<MeshGroup> UsdWriter::groupsOf() {
 }
 
 // Faces of what is laid stay apart: each has coordinates of its own.
-const Surface& UsdWriter::surfaceOf(uint32_t mesh, bool laid) {
+const DrawSurface& UsdWriter::surfaceOf(uint32_t mesh, bool laid) {
   if (draws_[mesh] < 2) {
     single_.build(*scene_.meshes[mesh], triangulator_, laid);
     return single_;
@@ -268,7 +268,7 @@ void UsdWriter::add(const PlannedLeaf& planned, uint16_t slot, uint32_t binding,
   const bool turn = ((scale.x < 0) != (scale.y < 0)) != (scale.z < 0);
   const bool laid = materials_.isLaid(binding);
   const uint32_t uvMask = materials_.uvMask(binding);
-  const Surface& surface = surfaceOf(leaf.mesh, laid);
+  const DrawSurface& surface = surfaceOf(leaf.mesh, laid);
   const SurfacePart* part = surface.part(slot);
   if (!part) return;
   std::vector<uint32_t> placed;

@@ -146,7 +146,7 @@ VertexWriter::VertexWriter(const Scene& scene, FileWriter& out)
 
 VertexWriter::BoxTemplate VertexWriter::boxTemplate(const Mesh& m) {
   BoxTemplate box{};
-  Surface s;
+  DrawSurface s;
   FaceTriangulator triangulator;
   s.build(m, triangulator);
   for (size_t v = 0; v < 24; ++v) {
@@ -318,9 +318,9 @@ char* VertexWriter::pack(const float* vertices, uint32_t count, const VertexLayo
   return packed_.data();
 }
 
-const float* VertexWriter::writeVertices(const Mesh& m, const Surface& s, const Tangents* tangents,
-                                         const SurfaceFace& face, const VertexLayout& layout,
-                                         const VertexGrid& grid) {
+const float* VertexWriter::writeVertices(const Mesh& m, const DrawSurface& s,
+                                         const Tangents* tangents, const SurfaceFace& face,
+                                         const VertexLayout& layout, const VertexGrid& grid) {
   scratch_.resize(static_cast<size_t>(face.vertexCount) * layout.floats());
   if (layout.laid) axes_ = layingOf(m, s, face, frame_, scale_);
   float* p = scratch_.data();
@@ -359,7 +359,7 @@ const float* VertexWriter::writeVertices(const Mesh& m, const Surface& s, const 
   return scratch_.data();
 }
 
-void VertexWriter::addFace(const Mesh& m, const Surface& s, const Tangents* tangents,
+void VertexWriter::addFace(const Mesh& m, const DrawSurface& s, const Tangents* tangents,
                            const SurfaceFace& face, const VertexLayout& layout,
                            PrimitiveState& state) {
   const float* vertices = writeVertices(m, s, tangents, face, layout, state.grid);

@@ -65,7 +65,7 @@ class VertexWriter {
     std::array<uint8_t, 36> indices;
   };
   struct CachedSurface {
-    Surface surface;
+    DrawSurface surface;
     std::map<int, Tangents> tangents;
   };
 
@@ -75,9 +75,9 @@ class VertexWriter {
                      PrimitiveState& state);
   bool addBox(uint32_t mesh, const Frame& frame, const Vec3& scale, const VertexLayout& layout,
               PrimitiveState& state);
-  void addFace(const Mesh& m, const Surface& s, const Tangents* tangents, const SurfaceFace& face,
-               const VertexLayout& layout, PrimitiveState& state);
-  const float* writeVertices(const Mesh& m, const Surface& s, const Tangents* tangents,
+  void addFace(const Mesh& m, const DrawSurface& s, const Tangents* tangents,
+               const SurfaceFace& face, const VertexLayout& layout, PrimitiveState& state);
+  const float* writeVertices(const Mesh& m, const DrawSurface& s, const Tangents* tangents,
                              const SurfaceFace& face, const VertexLayout& layout,
                              const VertexGrid& grid);
   CachedSurface& surfaceOf(uint32_t mesh, bool laid);

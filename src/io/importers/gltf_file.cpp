@@ -120,16 +120,6 @@ Error broken(const AssetOptions& options, const std::string& why) {
 
 }  // namespace
 
-Affine operator*(const Affine& outer, const Affine& inner) {
-  return {outer.direction(inner.x), outer.direction(inner.y), outer.direction(inner.z),
-          outer.point(inner.origin)};
-}
-
-Vec3 Affine::normal(const Vec3& n) const {
-  const Vec3 c = cross(y, z) * n.x + cross(z, x) * n.y + cross(x, y) * n.z;
-  return determinant() < 0 ? -c : c;
-}
-
 size_t GltfFile::index(const JsonValue& v) {
   const double n = v.number(-1);
   return n >= 0 && n < 9e15 && n == std::floor(n) ? static_cast<size_t>(n) : kNone;

@@ -16,21 +16,10 @@
 #include "base/json.h"
 #include "io/importers/asset.h"
 #include "io/importers/gltf_compression.h"
+#include "math/affine.h"
 #include "math/vec.h"
 
 namespace gable {
-
-/// An affine map by columns: x, y, z and the origin.
-struct Affine {
-  Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, origin;
-  Vec3 direction(const Vec3& d) const { return x * d.x + y * d.y + z * d.z; }
-  Vec3 point(const Vec3& p) const { return origin + direction(p); }
-  double determinant() const { return dot(x, cross(y, z)); }
-  /// The direction of a normal, not unit: the cofactors, with the sign that keeps it on its side.
-  Vec3 normal(const Vec3& n) const;
-  bool finite() const { return isFinite(x) && isFinite(y) && isFinite(z) && isFinite(origin); }
-};
-Affine operator*(const Affine& outer, const Affine& inner);
 
 /// A node with a mesh, in the scene.
 struct GltfPlacement {

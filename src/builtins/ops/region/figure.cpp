@@ -11,10 +11,10 @@
 
 namespace gable {
 
-enum class Reach : uint8_t { Inside, Free };
+enum class FigureReach : uint8_t { Inside, Free };
 
 template <>
-struct WordsOf<Reach> {
+struct WordsOf<FigureReach> {
   static constexpr const char* text = "inside free";
 };
 
@@ -35,7 +35,7 @@ void setFigures(Shape& s, const Region& figures) {
 
 // The shape becomes the figures around its middle, as far as they lie in it unless they are free.
 // Of a region of several pieces it is the middle of the largest.
-Status become(OpCall& call, const PlanFigure& figure, Reach reach) {
+Status become(OpCall& call, const PlanFigure& figure, FigureReach reach) {
   if (!isFigure(figure)) return badFigure(call);
   RegionJob job(call);
   const auto around = [&](Vec2 middle) { return Region{{ringOf(figure, middle), {}}}; };
@@ -49,7 +49,7 @@ Status become(OpCall& call, const PlanFigure& figure, Reach reach) {
   const Region together = around(middleOf(region));
   const EdgeOrigin made{kNoEdge, EdgeRole::Cut, EdgeOrigin::kNoSide};
   std::vector<std::vector<RegionPiece>> pieces(job.faces().size());
-  if (reach == Reach::Free) {
+  if (reach == FigureReach::Free) {
     const EdgeSource sources[] = {sourceOf(region)};
     for (const Polygon& p : together) {
       RegionPiece piece = wholePiece(p);
@@ -137,7 +137,7 @@ Status joinLater(OpCall& call) {
 
 struct Figure {
   double size = 0, height = 0, sides = 24;
-  Reach reach = Reach::Inside;
+  FigureReach reach = FigureReach::Inside;
 };
 
 constexpr double kLeastSides = 3, kMostSides = 1000;
