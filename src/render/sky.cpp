@@ -7,6 +7,8 @@
 
 #include "render/sky.h"
 
+#include <optional>
+
 #include "math/trig.h"
 #include "render/sampler.h"
 
@@ -193,6 +195,12 @@ class Atmosphere {
   std::vector<Vec3f> multi_ = std::vector<Vec3f>(kMultiHeights * kMultiAngles);
 };
 
+/// The air of most pictures: its tables take longer than a sky made with them.
+const Atmosphere& clearAir() {
+  static const Atmosphere air(1);
+  return air;
+}
+
 float rayleighPhase(float cosine) { return 3 / (16 * kPif) * (1 + cosine * cosine); }
 
 /// Cornette and Shanks 1992.
@@ -231,7 +239,9 @@ Vec3f seen(const Atmosphere& air, const Vec3f& direction, const Vec3f& toSun) {
 }  // namespace
 
 Sky::Sky(double sunElevation, double haze) {
-  const Atmosphere air(static_cast<float>(std::clamp(haze, 0.0, 50.0)));
+  std::optional<Atmosphere> own;
+  if (haze != 1) own.emplace(static_cast<float>(std::clamp(haze, 0.0, 50.0)));
+  const Atmosphere& air = own ? *own : clearAir();
   const float sunUp = static_cast<float>(sinDeg(sunElevation));
   const Vec3f toSun{static_cast<float>(cosDeg(sunElevation)), sunUp, 0};
   // While the disc sets, the share of it that is above the horizon.
