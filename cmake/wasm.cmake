@@ -20,10 +20,10 @@ endforeach()
 set(CMAKE_POSITION_INDEPENDENT_CODE OFF)
 
 # A page is fetched before it runs: only layers in whose loops derivations spend their time are compiled for speed.
-foreach(layer lang builtins io engine studio)
+foreach(layer builtins io)
   set(GABLE_WASM_OPTIONS_${layer} -Os)
 endforeach()
-foreach(layer program dialects language material city tiles json lsp)
+foreach(layer program lang dialects language material city tiles engine cases json lsp studio)
   set(GABLE_WASM_OPTIONS_${layer} -Oz)
 endforeach()
 # Nothing asks for types at run time. Headers that are compiled before are equal where their

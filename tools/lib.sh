@@ -60,6 +60,9 @@ step() {
   return "$status"
 }
 
+# gzipped FOLDER: the bytes that a server sends for all its files where it compresses each by gzip.
+gzipped() { find "$1" -type f -exec gzip -9c {} + | wc -c; }
+
 # packages GROUP...: the names in tools/packages.txt.
 packages() {
   local group

@@ -4,15 +4,16 @@
 """Packs the examples for the playground into one file: tools/pack_examples.py TO.
 
 A line of JSON, {"parts": [bytes, ...], "files": [[path, part, ...], ...]}, and behind it the parts one after the other,
-all of it compressed by gzip: what studio/playground/worker.ts unpacks. A file is its parts; models have the pictures
-within them as parts of their own, since many have the same. Places from maps are left out, since a page reads no
-maps, and so are the pictures that show an example. The same files give the same bytes.
+all of it packed by pack_bytes.py: what studio/playground/worker.ts unpacks. A file is its parts; models have the
+pictures within them as parts of their own, since many have the same. Places from maps are left out, since a page reads
+no maps, and so are the pictures that show an example. The same files give the same bytes.
 """
-import gzip
 import json
 import struct
 import sys
 from pathlib import Path
+
+from pack_bytes import packed
 
 EXAMPLES = Path(__file__).resolve().parent.parent / "examples"
 MAPS = (".osm", ".pbf")
@@ -61,7 +62,7 @@ def pack():
 def main():
     if len(sys.argv) != 2:
         sys.exit("usage: tools/pack_examples.py TO")
-    Path(sys.argv[1]).write_bytes(gzip.compress(pack(), 9, mtime=0))
+    Path(sys.argv[1]).write_bytes(packed(pack()))
 
 
 if __name__ == "__main__":

@@ -43,6 +43,8 @@ build_engine() {
   build wasm gable_wasm || exit 1
 }
 
+pack_engine() { python3 -B tools/pack_bytes.py build/wasm/gable.wasm build/wasm/gable.wasm.lzma; }
+
 build_pages() { (cd studio && npm run --silent playground -- --outDir "$1"); }
 
 build_playground() {
@@ -54,10 +56,11 @@ build_playground() {
   build_engine
   node_usable || install nodejs npm
   page_packages || exit 1
+  step "Packing the engine" playground-pack.log pack_engine || exit 1
   step "Building the page" playground.log build_pages "$folder" || exit 1
   python3 -B tools/pack_examples.py "$folder/examples.pack"
   cp cmake/debian/copyright "$folder/LICENSES.txt"
-  say "$folder/index.html, $(find "$folder" -type f -exec gzip -9c {} + | wc -c) bytes compressed"
+  say "$folder/index.html, $(gzipped "$folder") bytes compressed"
 }
 
 case ${1:-} in

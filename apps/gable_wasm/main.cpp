@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // The engine within a page: what the studio's server answers, as calls from JavaScript
-// (playground/src/engine.ts). Texts and bytes come as an address and a length, and stay the
+// (engine.mjs). Texts and bytes come as an address and a length, and stay the
 // caller's; what is answered stays the module's until the next call of the same name.
 //
 // The project is the folder /project of the module's own file system, the examples are /examples.

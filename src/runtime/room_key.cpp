@@ -67,9 +67,9 @@ void addShape(KeyHash& h, Given& given, const InitialShape& s) {
   h.add(s.mesh.contentHash());
   given.add(s.attributes);
   given.addAll(s.edgeAttributes);
-  h.add(s.faceTags.size());
+  h.add(uint64_t{s.faceTags.size()});
   for (const std::string& tag : s.faceTags) h.add(hashBytes(tag));
-  h.add(s.streetWidths.size());
+  h.add(uint64_t{s.streetWidths.size()});
   for (const double width : s.streetWidths) h.add(width);
 }
 

@@ -83,6 +83,23 @@ function makePlace() {
   return folder;
 }
 
+/** So many frames without anything new, and the page waits in vain: seconds would depend on the load. */
+const MOST_STILL = 900;
+
+/** Runs in the page. */
+async function allHasCome(most) {
+  let [still, last] = [0, ''];
+  for (;;) {
+    await new Promise((resolve) => requestAnimationFrame(resolve));
+    const { dataset, textContent } = document.querySelector('#told');
+    if (dataset.quiet === 'true') return;
+    const now = `${textContent}, ${dataset.loaded} loaded`;
+    still = now === last ? still + 1 : 0;
+    last = now;
+    if (still > most) throw new Error(`tiles do not come: ${now}`);
+  }
+}
+
 const given = process.argv[2];
 const folder = given ?? makePlace();
 const server = await serveFiles(folder);
@@ -96,12 +113,9 @@ try {
     (r) => r.url().startsWith(url) || r.url().startsWith('blob:') || outside.push(r.url()),
   );
   const told = page.locator('#told');
-  const quiet = () =>
-    page.waitForFunction(() => document.querySelector('#told')?.dataset.quiet === 'true', null, {
-      timeout: 20_000,
-    });
-  await quiet().catch(async (e) => {
-    throw new Error(`${await told.textContent()} ${complaints.join(' ')}`, { cause: e });
+  const quiet = () => page.evaluate(allHasCome, MOST_STILL);
+  await quiet().catch((e) => {
+    throw new Error(complaints.join(' '), { cause: e });
   });
   // Near enough for the finest tiles.
   for (let i = 0; i < 6; ++i) {

@@ -6,9 +6,9 @@ import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { gunzipSync } from 'node:zlib';
 import { expect, it } from 'vitest';
 import { unpacked } from './examples';
+import { unpackLzma } from './lzma';
 
 const root = join(import.meta.dirname, '../..');
 
@@ -16,7 +16,7 @@ it('unpacks every file as it is, with pictures that models share stored once', (
   const folder = mkdtempSync(join(tmpdir(), 'gable-pack-'));
   const pack = join(folder, 'examples.pack');
   execFileSync('python3', ['-B', join(root, 'tools/pack_examples.py'), pack]);
-  const plain = gunzipSync(readFileSync(pack));
+  const plain = unpackLzma(readFileSync(pack));
   rmSync(folder, { recursive: true });
   const files = unpacked(plain);
   expect(files.length).toBeGreaterThan(100);

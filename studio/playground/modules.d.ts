@@ -6,7 +6,7 @@ declare module 'gable-wasm/gable.mjs' {
   const makeGable: (settings: { wasmBinary: ArrayBuffer | Uint8Array }) => Promise<unknown>;
   export default makeGable;
 }
-declare module 'gable-wasm/gable.wasm?url' {
+declare module 'gable-wasm/gable.wasm.lzma?url' {
   const address: string;
   export default address;
 }

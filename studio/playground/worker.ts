@@ -5,9 +5,10 @@
 // hears whether later ones are still wanted. The language server works while nothing else is asked.
 
 import makeGable from 'gable-wasm/gable.mjs';
-import wasmAddress from 'gable-wasm/gable.wasm?url';
+import wasmAddress from 'gable-wasm/gable.wasm.lzma?url';
 import { openEngine, type Engine } from '../../apps/gable_wasm/engine.mjs';
 import { unpacked } from './examples';
+import { unpackLzma } from './lzma';
 import type { FromWorker, ToWorker } from './messages';
 
 type Ask = Extract<ToWorker, { kind: 'ask' }>;
@@ -27,22 +28,20 @@ function again(): void {
   turns.port2.postMessage(null);
 }
 
+async function fetched(address: string | URL): Promise<Uint8Array<ArrayBuffer>> {
+  const answer = await fetch(address);
+  if (!answer.ok) throw new Error(`${String(address)} is missing`);
+  return unpackLzma(new Uint8Array(await answer.arrayBuffer()));
+}
+
 /** The examples lie beside the page, as tools/pack_examples.py packs them. */
 async function examples(): Promise<[string, Uint8Array][]> {
-  const packed = await fetch(new URL('../examples.pack', self.location.href));
-  if (!packed.ok || !packed.body) throw new Error('the examples are missing');
-  const plain = packed.body.pipeThrough(new DecompressionStream('gzip'));
-  return unpacked(new Uint8Array(await new Response(plain).arrayBuffer())).map(([path, bytes]) => [
-    `/examples/${path}`,
-    bytes,
-  ]);
+  const plain = await fetched(new URL('../examples.pack', self.location.href));
+  return unpacked(plain).map(([path, bytes]) => [`/examples/${path}`, bytes]);
 }
 
 async function start(): Promise<void> {
-  const [wasm, files] = await Promise.all([
-    fetch(wasmAddress).then((answer) => answer.arrayBuffer()),
-    examples(),
-  ]);
+  const [wasm, files] = await Promise.all([fetched(wasmAddress), examples()]);
   engine = await openEngine(makeGable, wasm, files);
   again();
 }

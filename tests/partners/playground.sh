@@ -2,8 +2,10 @@
 # SPDX-FileCopyrightText: The Gable authors
 #
 # The playground: every example that the engine derives as WebAssembly, in node, is the same to the byte as the
-# program's; and the page works in a browser.
+# program's; the folder is small; and the page works in a browser.
+most=3000000
 tools/playground.sh "$out/page" || return 1
+[ "$(gzipped "$out/page")" -le "$most" ] || { say "The folder has more than $most bytes by gzip" && return 1; }
 step "Examples in WebAssembly" playground-bytes.log node tests/wasm/same_bytes.mjs "$gable" "$out" || return 1
 tail -n 1 "$root/build/log/playground-bytes.log"
 install chromium

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Tiles in Cesium: check.mjs TILES [PICTURE]. Serves the folder of a tileset, loads it in Cesium in
-// a headless Chromium, waits until all that is seen has come, picks what stands in the middle and
-// reads its attributes. Ends with an error where Cesium tells one, a tile fails, or nothing is
+// a headless Chromium, waits until all that is seen has come, as long as something comes, picks what
+// stands in the middle and reads its attributes. Ends with an error where Cesium tells one, a tile fails, or nothing is
 // picked. `tools/cesium/check.sh` installs what it needs.
 
 import { createReadStream, existsSync, statSync } from 'node:fs';
@@ -59,18 +59,25 @@ async function look() {
   const spent = [];
   tileset.tileFailed.addEventListener((e) => failures.push(`${e.url}: ${e.message}`));
   tileset.tileLoad.addEventListener(() => (loaded += 1));
+  let left = '';
+  tileset.loadProgress.addEventListener((asked, read) => (left = `${asked} asked, ${read} read`));
   viewer.scene.primitives.add(tileset);
   const ball = tileset.boundingSphere;
   viewer.camera.lookAt(ball.center, new Cesium.HeadingPitchRange(0.4, -0.8, ball.radius * 0.25));
+  // Counted in frames and not in seconds: a machine with other work draws fewer.
+  const MOST_STILL = 1500;
   const settled = () =>
     new Promise((resolve, reject) => {
-      const begin = performance.now();
+      let [still, last] = [0, ''];
       const wait = () => {
         const before = performance.now();
         viewer.render();
         spent.push(performance.now() - before);
         if (tileset.tilesLoaded && loaded > 0) return resolve();
-        if (performance.now() - begin > 120_000) return reject(new Error('tiles do not settle'));
+        const now = `${loaded} tiles loaded, ${left}`;
+        still = now === last ? still + 1 : 0;
+        last = now;
+        if (still > MOST_STILL) return reject(new Error(`tiles do not settle: ${now}`));
         setTimeout(wait, 20);
       };
       wait();
@@ -107,8 +114,8 @@ try {
   const complaints = [];
   page.on('pageerror', (e) => complaints.push(String(e)));
   page.on('console', (m) => m.type() === 'error' && complaints.push(m.text()));
+  page.setDefaultTimeout(0);
   await page.goto(`http://127.0.0.1:${server.address().port}/`);
-  await page.waitForFunction(() => window.Cesium !== undefined);
   const seen = await page.evaluate(look);
   if (picture) await page.screenshot({ path: picture });
   console.log(`${seen.loaded} tiles, longest frame ${Math.round(seen.longest)} ms`);

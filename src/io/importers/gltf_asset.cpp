@@ -194,12 +194,12 @@ Result<Asset> readGltfAsset(std::string_view bytes, const AssetOptions& options)
   asset.warnings = file->warnings();
   const std::vector<GltfMaterial> materials = readGltfMaterials(*file, options, asset);
   GltfMeshes meshes(*file, materials, asset, options.zUp);
-  std::vector<GltfPlacement> placements = file->placements();
-  if (const size_t left = dropStandIns(placements); left > 0) {
+  const GltfShown shown = file->shown();
+  if (shown.left > 0) {
     asset.warnings.push_back("collision shapes and coarser levels of detail, " +
-                             std::to_string(left) + " in all, are left out");
+                             std::to_string(shown.left) + " in all, are left out");
   }
-  for (const GltfPlacement& p : placements) {
+  for (const GltfPlacement& p : shown.placements) {
     asset.groups.push_back(p.name);
     if (!meshes.add(p, static_cast<uint32_t>(asset.groups.size() - 1))) {
       return Error{

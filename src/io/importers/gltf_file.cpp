@@ -459,59 +459,91 @@ Affine GltfFile::localOf(const JsonValue& node) {
   return a;
 }
 
-std::vector<GltfPlacement> GltfFile::placements() const {
-  const std::vector<JsonValue>& nodes = json_["nodes"].items();
-  struct Visit {
-    size_t node;
-    Affine around;
-  };
-  std::vector<Visit> stack;
+std::vector<size_t> GltfFile::roots() const {
+  std::vector<size_t> out;
   const JsonValue& scenes = json_["scenes"];
   const size_t scene = json_.find("scene") ? index(json_["scene"]) : 0;
   if (scene < scenes.size()) {
-    const auto& roots = scenes.at(scene)["nodes"].items();
-    for (auto r = roots.rbegin(); r != roots.rend(); ++r) stack.push_back({index(*r), {}});
-  } else {
-    // A library of nodes: all that are no child.
-    std::vector<bool> isChild(nodes.size());
-    for (const JsonValue& n : nodes) {
-      for (const JsonValue& c : n["children"].items()) {
-        if (index(c) < nodes.size()) isChild[index(c)] = true;
-      }
-    }
-    for (size_t n = nodes.size(); n-- > 0;) {
-      if (!isChild[n]) stack.push_back({n, {}});
+    for (const JsonValue& root : scenes.at(scene)["nodes"].items()) out.push_back(index(root));
+    return out;
+  }
+  // A library of nodes: all that are no child.
+  const std::vector<JsonValue>& nodes = json_["nodes"].items();
+  std::vector<bool> isChild(nodes.size());
+  for (const JsonValue& n : nodes) {
+    for (const JsonValue& c : n["children"].items()) {
+      if (index(c) < nodes.size()) isChild[index(c)] = true;
     }
   }
-  std::vector<bool> seen(nodes.size());
-  std::vector<GltfPlacement> out;
-  while (!stack.empty()) {
-    work();
-    const Visit visit = stack.back();
-    stack.pop_back();
-    if (visit.node >= nodes.size() || seen[visit.node]) continue;
-    seen[visit.node] = true;
-    const JsonValue& n = nodes[visit.node];
-    const Affine world = visit.around * localOf(n);
-    const size_t mesh = index(n["mesh"]);
-    if (mesh < json_["meshes"].size() && world.finite()) {
-      const std::string& name = n["name"].text();
-      out.push_back({mesh, world, name.empty() ? json_["meshes"].at(mesh)["name"].text() : name,
-                     n.find("extras")});
-    }
-    const auto& children = n["children"].items();
-    work(children.size());
-    for (auto c = children.rbegin(); c != children.rend(); ++c) stack.push_back({index(*c), world});
+  for (size_t n = 0; n < nodes.size(); ++n) {
+    if (!isChild[n]) out.push_back(n);
   }
   return out;
 }
 
-size_t dropStandIns(std::vector<GltfPlacement>& placements) {
+std::vector<bool> GltfFile::coarserLevels() const {
+  const std::vector<JsonValue>& nodes = json_["nodes"].items();
+  std::vector<bool> out(nodes.size());
+  for (size_t n = 0; n < nodes.size(); ++n) {
+    for (const JsonValue& id : nodes[n]["extensions"]["MSFT_lod"]["ids"].items()) {
+      if (index(id) < nodes.size() && index(id) != n) out[index(id)] = true;
+    }
+  }
+  return out;
+}
+
+std::vector<GltfFile::Visit> GltfFile::visits() const {
+  const std::vector<JsonValue>& nodes = json_["nodes"].items();
+  std::vector<Visit> stack, out;
+  const std::vector<size_t> first = roots();
+  for (auto r = first.rbegin(); r != first.rend(); ++r) stack.push_back({*r, kNone, {}});
+  std::vector<bool> seen(nodes.size());
+  while (!stack.empty()) {
+    work();
+    Visit visit = stack.back();
+    stack.pop_back();
+    if (visit.node >= nodes.size() || seen[visit.node]) continue;
+    seen[visit.node] = true;
+    const JsonValue& n = nodes[visit.node];
+    visit.world = visit.world * localOf(n);
+    out.push_back(visit);
+    const auto& children = n["children"].items();
+    work(children.size());
+    for (auto c = children.rbegin(); c != children.rend(); ++c) {
+      stack.push_back({index(*c), out.size() - 1, visit.world});
+    }
+  }
+  return out;
+}
+
+const std::string& GltfFile::nameOf(size_t node) const {
+  const JsonValue& n = json_["nodes"].at(node);
+  const std::string& own = n["name"].text();
+  return own.empty() ? json_["meshes"].at(index(n["mesh"]))["name"].text() : own;
+}
+
+GltfShown GltfFile::shown() const {
+  const std::vector<Visit> all = visits();
   std::vector<std::string_view> names;
-  for (const GltfPlacement& p : placements) names.push_back(p.name);
+  for (const Visit& v : all) names.push_back(nameOf(v.node));
   const StandIns standIns(names);
-  return std::erase_if(placements,
-                       [&](const GltfPlacement& p) { return standIns.contains(p.name); });
+  const std::vector<bool> coarser = coarserLevels();
+  std::vector<bool> isCoarse(all.size());
+  GltfShown out;
+  for (size_t i = 0; i < all.size(); ++i) {
+    const Visit& v = all[i];
+    isCoarse[i] =
+        coarser[v.node] || standIns.isCoarse(names[i]) || (v.parent != kNone && isCoarse[v.parent]);
+    const JsonValue& n = json_["nodes"].at(v.node);
+    const size_t mesh = index(n["mesh"]);
+    if (mesh >= json_["meshes"].size() || !v.world.finite()) continue;
+    if (isCoarse[i] || isCollisionName(names[i])) {
+      ++out.left;
+    } else {
+      out.placements.push_back({mesh, v.world, nameOf(v.node), n.find("extras")});
+    }
+  }
+  return out;
 }
 
 }  // namespace gable

@@ -30,8 +30,15 @@ struct GltfPlacement {
   const JsonValue* extras = nullptr;
 };
 
-/// Takes away what stands in for something and is not drawn (stand_ins.h), and gives how many.
-size_t dropStandIns(std::vector<GltfPlacement>& placements);
+/// What the scene of a file shows.
+struct GltfShown {
+  /// Parents before children. Each node is there once, however often the file names it.
+  std::vector<GltfPlacement> placements;
+  /// How many nodes of the scene are left out with their meshes: collision shapes by their names
+  /// (stand_ins.h), and coarser levels of detail by their names or by MSFT_lod, with all below
+  /// them.
+  size_t left = 0;
+};
 
 class GltfFile {
  public:
@@ -53,9 +60,8 @@ class GltfFile {
   /// The bytes of a buffer view; empty when there is none.
   std::string_view view(size_t index) const;
 
-  /// Nodes of the scene that show a mesh, parents before children. Each node is placed once,
-  /// however often the file names it.
-  std::vector<GltfPlacement> placements() const;
+  /// Of the scene that the file names, or of all its nodes where it has none.
+  GltfShown shown() const;
 
   const std::vector<std::string>& warnings() const { return warnings_; }
 
@@ -77,6 +83,18 @@ class GltfFile {
   bool applySparse(const JsonValue& accessor, const Elements& e, std::vector<double>& out) const;
   void loadBuffers(std::string_view chunk, const AssetOptions& options);
   static Affine localOf(const JsonValue& node);
+  std::vector<size_t> roots() const;
+  /// A node of the scene: the number of its parent's visit, and where it is.
+  struct Visit {
+    size_t node = 0, parent = kNone;
+    Affine world;
+  };
+  /// Parents before children.
+  std::vector<Visit> visits() const;
+  /// That of its mesh where it has none.
+  const std::string& nameOf(size_t node) const;
+  /// By node, whether MSFT_lod names it as a coarser level of another.
+  std::vector<bool> coarserLevels() const;
 
   JsonValue json_;
   std::vector<std::string> buffers_;

@@ -154,6 +154,30 @@ TEST(GltfAsset, loopsOfNodesEnd) {
   EXPECT_EQ(r->mesh->faceCount(), 1u);
 }
 
+// The groups of what is read of some nodes, each with a mesh if it has no children.
+std::vector<std::string> groupsOf(const std::string& nodes, const std::string& extra = {}) {
+  auto r = readGltfAsset(handMade(extra, nodes), optionsFor("a.gltf"));
+  return r.ok() ? r->groups : std::vector<std::string>{r.error().message};
+}
+
+TEST(GltfAsset, coarserLevelsAreLeftOutWithAllBelowThem) {
+  using Names = std::vector<std::string>;
+  const std::string levels =
+      R"("name":"H_LOD0","children":[2]},{"name":"H_LOD1","children":[3]},
+         {"name":"fine","mesh":0},{"name":"coarse","mesh":0)";
+  EXPECT_EQ(groupsOf(levels), Names{"fine"});
+  // A scene with the coarse level alone shows it.
+  EXPECT_EQ(groupsOf(levels, R"(,"scene":0,"scenes":[{"nodes":[1]}])"), Names{"coarse"});
+  // Below a collision shape is something else.
+  EXPECT_EQ(groupsOf(R"("name":"UCX_H","mesh":0,"children":[1]},{"name":"sign","mesh":0)"),
+            Names{"sign"});
+  const std::string extension =
+      R"("name":"fine","mesh":0,"extensions":{"MSFT_lod":{"ids":[1,0,9]}}},
+         {"name":"coarse","children":[2]},{"name":"below","mesh":0)";
+  EXPECT_EQ(groupsOf(extension), Names{"fine"});
+  EXPECT_EQ(groupsOf(extension, R"(,"scene":0,"scenes":[{"nodes":[0,1]}])"), Names{"fine"});
+}
+
 TEST(GltfAsset, wrongReferencesAreErrorsOrLeftOut) {
   const std::string good = handMade();
   const auto replaced = [&](const std::string& from, const std::string& to) {

@@ -31,9 +31,7 @@ Result<ShapeFile> readGltfShapes(std::string_view bytes, const AssetOptions& opt
   const std::vector<GltfMaterial> materials = readGltfMaterials(*file, options, held);
   out.textures = std::move(held.textures);
   uint64_t read = 0;
-  std::vector<GltfPlacement> placements = file->placements();
-  dropStandIns(placements);
-  for (const GltfPlacement& p : placements) {
+  for (const GltfPlacement& p : file->shown().placements) {
     Asset part;
     GltfMeshes meshes(*file, materials, part, options.zUp);
     const bool fits = meshes.add(p, 0);

@@ -14,7 +14,7 @@ namespace gable {
 
 /// Whether engines take a node of that name for a collision shape and draw nothing: UCX_Wall_00
 /// (Unreal; also UBX_, USP_, UCP_), Wall-colonly and Wall-convcolonly (Godot, which also takes `_`
-/// and `$`), Wall_collision.
+/// and `$`), Wall_collision. Numbers that programs add behind are no part of it: Wall-colonly.001.
 bool isCollisionName(std::string_view name);
 
 /// The names of a file.
@@ -22,8 +22,8 @@ class StandIns {
  public:
   explicit StandIns(const std::vector<std::string_view>& names);
 
-  /// Also true of Wall_LOD1 and further ones where Wall_LOD0 is there.
-  bool contains(std::string_view name) const;
+  /// Whether it is a coarser level: Wall_LOD1 and further ones where Wall_LOD0 is there.
+  bool isCoarse(std::string_view name) const;
 
  private:
   /// What has a finest level: Wall.
