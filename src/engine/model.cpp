@@ -8,6 +8,7 @@
 
 #include "base/files.h"
 #include "base/temporary_folder.h"
+#include "base/work.h"
 #include "engine/game_scene.h"
 #include "engine/guard.h"
 #include "engine/impl.h"
@@ -148,6 +149,8 @@ Result<WriteReport> writeGame(const Scene& scene, const std::string& path,
 
 WriteResult written(const Model::Impl& impl, const std::string& path,
                     const WriteSettings& settings) {
+  // Who has stopped the derivation wants no file of what there is.
+  work(kWorkBetweenLooks + 1);
   WriteResult out;
   out.diagnostics = writeClashes(path, settings);
   if (hasErrors(out.diagnostics)) return out;

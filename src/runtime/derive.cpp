@@ -349,6 +349,13 @@ std::unique_ptr<DeriveResult> failed(const Status& why) {
   return result;
 }
 
+// That of a derivation whose user has stopped it.
+std::unique_ptr<DeriveResult> stopped() {
+  auto result = std::make_unique<DeriveResult>();
+  result->end = End::Cancelled;
+  return result;
+}
+
 std::unique_ptr<DeriveResult> assembled(Pass& pass, DeriveShared& shared,
                                         const std::vector<InitialShape>& shapes,
                                         const std::shared_ptr<RoomPlan>& rooms) {
@@ -365,9 +372,7 @@ std::unique_ptr<DeriveResult> assembled(Pass& pass, DeriveShared& shared,
     return failed(Status::failure(e.code, e.message, e.hint));
   }
   if (status.code() != kWorkStopped) return failed(status);
-  result = std::make_unique<DeriveResult>();
-  result->end = End::Cancelled;
-  return result;
+  return stopped();
 }
 
 struct Way {
@@ -435,8 +440,7 @@ FirstPass firstPassOf(Pass& pass, const DeriveShared& shared) {
   } else if (status.code() != kWorkStopped) {
     out.failure = failed(status);
   } else {
-    out.failure = std::make_unique<DeriveResult>();
-    out.failure->end = End::Cancelled;
+    out.failure = stopped();
   }
   return out;
 }
@@ -534,8 +538,13 @@ std::unique_ptr<DeriveResult> deriveIn(Way way, const Program& program,
   // The scene needs their room.
   if (known.rooms && !shared.roomKey) known.rooms->forgetAnswers();
   known.occluders.reset();
+  // There would be no scene, and making room for one takes long.
+  if (usage.cancelled()) {
+    const MadeOutputs freed(pass, usage);
+    return stopped();
+  }
   auto result = assembled(pass, shared, shapes, known.rooms);
-  if (known.rooms) {
+  if (known.rooms && result->end != End::Cancelled) {
     tellRooms(pass, *known.rooms, shared, *result);
     if (known.limit) {
       Diagnostics::Entry& message = known.limit->message;

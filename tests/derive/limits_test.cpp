@@ -14,6 +14,7 @@
 #include <string>
 
 #include "base/interned.h"
+#include "base/temporary_folder.h"
 #include "engine/impl.h"
 #include "gable/gable.h"
 
@@ -278,6 +279,27 @@ TEST(Limits, cancellingReachesTheMerge) {
     const Model model = derive(rules, lots(8), settings);
     EXPECT_EQ(model.end(), End::Cancelled) << jobs;
     EXPECT_EQ(model.leafCount(), 0u) << jobs;
+  }
+}
+
+TEST(Limits, whatIsCancelledIsNeitherPutTogetherNorWritten) {
+  const Rules rules = rulesOf("Lot --> split(x) { 1 : Tile. }*\n");
+  std::atomic<bool> cancel{false};
+  DeriveSettings settings;
+  settings.cancel = &cancel;
+  settings.progress = [&](size_t, size_t) { cancel = true; };
+  const Model model = derive(rules, lots(2), settings);
+  EXPECT_EQ(model.end(), End::Cancelled);
+  EXPECT_EQ(model.leafCount(), 0u);
+  const TemporaryFolder folder;
+  WriteSettings write;
+  write.limits.cancel = &cancel;
+  for (const char* name : {"/a.glb", "/a.obj", "/a.ply"}) {
+    const std::string path = folder.path() + name;
+    const WriteResult written = model.write(path, write);
+    EXPECT_FALSE(written.ok) << name;
+    EXPECT_TRUE(tells(written.diagnostics, "was-cancelled")) << name;
+    EXPECT_FALSE(fs::exists(path)) << name;
   }
 }
 

@@ -6,6 +6,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "base/json.h"
 #include "io/testing/scenes.h"
@@ -37,6 +42,91 @@ Head headOf(const std::string& bytes) {
               out.kept.size() * sizeof(uint32_t));
   return out;
 }
+
+/// Reads what lies behind each other.
+class Reader {
+ public:
+  Reader(const std::string& bytes, size_t at) : bytes_(bytes), at_(at) {}
+  uint32_t number() {
+    uint32_t out = 0;
+    std::memcpy(&out, bytes_.data() + at_, sizeof out);
+    at_ += sizeof out;
+    return out;
+  }
+  /// Of so many values of four bytes.
+  std::string words(size_t count) {
+    at_ += count * 4;
+    return bytes_.substr(at_ - count * 4, count * 4);
+  }
+
+ private:
+  const std::string& bytes_;
+  size_t at_;
+};
+
+/// What a page holds after the updates that it has applied, as docs/dev/studio-protocol.md tells.
+class Page {
+ public:
+  struct Batch {
+    double roughness = 0;
+    /// What instances have in common; empty for merged triangles.
+    std::string geometry;
+    bool operator==(const Batch&) const = default;
+  };
+  struct Chunk {
+    uint32_t leaves = 0;
+    std::vector<std::pair<uint32_t, std::string>> pieces;
+    bool operator==(const Chunk&) const = default;
+  };
+  std::vector<Batch> batches;
+  std::vector<Chunk> chunks;
+  bool operator==(const Page&) const = default;
+
+  void apply(const std::string& bytes) {
+    const Head head = headOf(bytes);
+    const size_t begin = 8 + Reader(bytes, 4).number();
+    const Page before = std::move(*this);
+    *this = {};
+    std::map<uint32_t, uint32_t> numbers;
+    for (const JsonValue& batch : head.json["batches"].items()) {
+      const auto kept = static_cast<uint32_t>(batch["kept"].number(kNew));
+      if (kept != kNew) numbers[kept] = static_cast<uint32_t>(batches.size());
+      Batch& made = batches.emplace_back();
+      const auto look = static_cast<size_t>(batch["look"].number(0));
+      made.roughness = head.json["looks"].at(look)["roughness"].number(0);
+      if (kept != kNew) made.geometry = before.batches.at(kept).geometry;
+      for (const char* name : {"position", "normal", "index"}) {
+        if (!batch.find(name)) continue;
+        const JsonValue& section = batch[name];
+        made.geometry += Reader(bytes, begin + static_cast<size_t>(section.at(0).number(0)))
+                             .words(static_cast<size_t>(section.at(1).number(0)));
+      }
+    }
+    const size_t at = begin + static_cast<size_t>(head.json["chunks"].at(0).number(0));
+    Reader leaves(bytes, at + head.kept.size() * 4);
+    Reader news(bytes, at + head.kept.size() * 8);
+    for (const uint32_t kept : head.kept) {
+      Chunk& chunk = chunks.emplace_back();
+      if (kept == kNew) {
+        for (uint32_t pieces = news.number(); pieces > 0; --pieces)
+          chunk.pieces.push_back(piece(news));
+      } else {
+        chunk = before.chunks.at(kept);
+        for (auto& [batch, content] : chunk.pieces) batch = numbers.at(batch);
+      }
+      chunk.leaves = leaves.number();
+    }
+  }
+
+ private:
+  std::pair<uint32_t, std::string> piece(Reader& from) const {
+    const uint32_t batch = from.number();
+    // Of an instance: its matrix, colour and leaf.
+    if (!batches.at(batch).geometry.empty()) return {batch, from.words(from.number() * size_t{18})};
+    const uint32_t vertices = from.number(), corners = from.number(), runs = from.number();
+    return {batch, from.words(vertices * size_t{6} + corners + runs * size_t{4})};
+  }
+};
 
 /// Boxes and balls in a row, some of them in towers; `changed` has another size, `left` is left
 /// out.
@@ -112,6 +202,22 @@ TEST(ChunkedList, batchesAreNumberedAlikeWithAndWithoutOneBefore) {
   }
   EXPECT_EQ(update.drawn->used, whole.drawn->used);
   EXPECT_EQ(update.drawn->usedEnd, whole.drawn->usedEnd);
+}
+
+TEST(ChunkedList, aSeriesOfEditsLeavesWhatAFreshModelGives) {
+  Page page;
+  std::shared_ptr<const DrawnChunks> held;
+  for (const auto& [changed, left] :
+       {std::pair{-1, -1}, {9000, -1}, {9000, 12000}, {3, 12000}, {23999, 7}, {-1, 0}, {-1, -1}}) {
+    const Scene scene = street(changed, left);
+    const ChunkedList update = chunkedList(scene, held.get());
+    page.apply(update.bytes);
+    held = update.drawn;
+    Page fresh;
+    fresh.apply(chunkedList(scene, nullptr).bytes);
+    EXPECT_GT(fresh.chunks.size(), 20u);
+    EXPECT_TRUE(page == fresh) << changed << ' ' << left;
+  }
 }
 
 TEST(ChunkedList, theBytesAreTheSameForAnyNumberOfJobs) {
