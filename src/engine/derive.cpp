@@ -194,9 +194,11 @@ void bindSettings(const Rules::Impl& rules, const DeriveSettings& settings, Deri
   } else if (program.startRule < 0) {
     const std::string file = program.files.empty() ? std::string() : program.files[0];
     const bool blank = program.rules.empty();
-    complain({"no-start-rule", "'" + file + "' has no rule to start with",
-              blank ? "it holds no rule at all; the folder of examples has some to begin with"
-                    : "write a rule without parameters, or name another file"});
+    complain(
+        {"no-start-rule", "'" + file + "' has no rule to start with",
+         blank
+             ? "it holds no rule at all, or none outside of styles; the folder of examples has some"
+             : "write a rule without parameters, or name another file"});
   }
 }
 

@@ -7,10 +7,10 @@
 #include <bit>
 #include <cmath>
 
-#include "base/elementary.h"
 #include "base/files.h"
 #include "engine/impl.h"
 #include "io/image/image.h"
+#include "material/linear_light.h"
 
 namespace gable {
 
@@ -89,8 +89,7 @@ class SrgbBytes {
   SrgbBytes() {
     for (size_t i = 0; i < bytes_.size(); ++i) {
       const double v = static_cast<double>(i) / (kSteps * kSteps) * static_cast<double>(i);
-      const double srgb = v <= 0.0031308 ? 12.92 * v : 1.055 * powOf(v, 1 / 2.4) - 0.055;
-      bytes_[i] = static_cast<uint8_t>(std::lround(255 * srgb));
+      bytes_[i] = static_cast<uint8_t>(std::lround(255 * srgbOf(v)));
     }
   }
   uint8_t of(float linear) const {

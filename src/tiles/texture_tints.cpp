@@ -6,18 +6,12 @@
 
 #include <array>
 
-#include "base/elementary.h"
-#include "io/exporters/gltf_materials.h"
 #include "io/image/image.h"
+#include "material/linear_light.h"
 
 namespace gable {
 
 namespace {
-
-// Back from linear light (IEC 61966-2-1).
-double srgbOf(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * powOf(linear, 1 / 2.4) - 0.055;
-}
 
 Vec3 meanOf(const std::vector<uint8_t>& rgba) {
   std::array<double, 256> linear{};

@@ -11,6 +11,7 @@
 #include "base/work.h"
 #include "io/exporters/plan.h"
 #include "io/exporters/surface.h"
+#include "material/linear_light.h"
 #include "scene/flatten.h"
 
 namespace gable {

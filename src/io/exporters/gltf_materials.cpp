@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "material/library.h"
+#include "material/linear_light.h"
 #include "math/trig.h"
 #include "scene/flatten.h"
 
@@ -58,11 +59,6 @@ void forEachExtension(const Material& m, Visit visit) {
 }
 
 }  // namespace
-
-double linearOf(double srgb) {
-  const double c = unit(srgb);
-  return c <= 0.04045 ? c / 12.92 : powOf((c + 0.055) / 1.055, 2.4);
-}
 
 GltfMaterials::GltfMaterials(const Scene& scene, const WriteOptions& options,
                              std::vector<std::string>& warnings)

@@ -172,7 +172,4 @@ class GltfMaterials {
   std::vector<double> repeats_;
 };
 
-/// A colour component from sRGB to linear light (IEC 61966-2-1).
-double linearOf(double srgb);
-
 }  // namespace gable

@@ -14,6 +14,7 @@
 #include "io/testing/glb_model.h"
 #include "io/testing/scenes.h"
 #include "material/library.h"
+#include "material/linear_light.h"
 
 namespace gable {
 namespace {

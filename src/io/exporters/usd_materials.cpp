@@ -9,8 +9,8 @@
 #include <algorithm>
 
 #include "base/number.h"
-#include "io/exporters/gltf_materials.h"
 #include "material/library.h"
+#include "material/linear_light.h"
 #include "scene/flatten.h"
 
 namespace gable {
@@ -22,8 +22,6 @@ std::string numberOf(double v) {
   char text[kNumberRoom];
   return {text, writeShortest(text, static_cast<float>(v))};
 }
-
-Vec3 linear(const Vec3& srgb) { return {linearOf(srgb.x), linearOf(srgb.y), linearOf(srgb.z)}; }
 
 std::string pair(double a, double b) { return "(" + numberOf(a) + ", " + numberOf(b) + ")"; }
 
@@ -163,7 +161,7 @@ void UsdMaterials::writeOne(UsdLayer& layer, const Binding& b, const std::string
   layer.open("def Shader \"Surface\"");
   layer.line("uniform token info:id = \"UsdPreviewSurface\"");
   layer.line("color3f inputs:diffuseColor" +
-             (has(b.color) ? from("color", "rgb") : " = " + usdVec(linear(m.color))));
+             (has(b.color) ? from("color", "rgb") : " = " + usdVec(linearOf(m.color))));
   const bool combined = has(b.metallicRoughness);
   layer.line("float inputs:metallic" +
              (combined ? from("surface", "b") : " = " + numberOf(unit(m.metallic))));
@@ -172,7 +170,7 @@ void UsdMaterials::writeOne(UsdLayer& layer, const Binding& b, const std::string
   if (has(b.emissive)) {
     layer.line("color3f inputs:emissiveColor" + from("emissive", "rgb"));
   } else if (m.emissive != Vec3{}) {
-    layer.line("color3f inputs:emissiveColor = " + usdVec(linear(m.emissive)));
+    layer.line("color3f inputs:emissiveColor = " + usdVec(linearOf(m.emissive)));
   }
   if (b.transparent) {
     layer.line("float inputs:opacity" +
@@ -190,13 +188,13 @@ void UsdMaterials::writeOne(UsdLayer& layer, const Binding& b, const std::string
     return "float4 inputs:scale = " + three.substr(0, three.size() - 1) + ", " + numberOf(a) + ")";
   };
   writeTexture(layer, home, "color", b.color, folder, true,
-               factor(linear(m.color), b.transparent ? unit(m.opacity) : 1));
+               factor(linearOf(m.color), b.transparent ? unit(m.opacity) : 1));
   writeTexture(layer, home, "surface", b.metallicRoughness, folder, false,
                factor({1, unit(m.roughness), unit(m.metallic)}, 1));
   writeTexture(layer, home, "normal", b.normal, folder, false,
                "float4 inputs:scale = (2, 2, 2, 1)\nfloat4 inputs:bias = (-1, -1, -1, 0)");
   writeTexture(layer, home, "occlusion", b.occlusion, folder, false, {});
-  writeTexture(layer, home, "emissive", b.emissive, folder, true, factor(linear(m.emissive), 1));
+  writeTexture(layer, home, "emissive", b.emissive, folder, true, factor(linearOf(m.emissive), 1));
   layer.close();
 }
 

@@ -12,10 +12,13 @@
 
 #include "base/hash.h"
 #include "io/importers/geojson_edges.h"
+#include "material/linear_light.h"
 
 namespace gable {
 namespace {
 
+// Beyond so many colours of vertices, others are told apart by five steps.
+constexpr size_t kExactColors = 4096;
 constexpr size_t kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6;
 
 size_t modeOf(const JsonValue& primitive) {
@@ -56,6 +59,7 @@ bool GltfMeshes::readPrimitive(const JsonValue& p) {
   if (has("NORMAL") && (!read("NORMAL", 3, normals_) || normals_.size() != count * 3)) {
     normals_.clear();
   }
+  readColors(attributes, count);
   uvs_.clear();
   for (int set = 0; set < kUvSets; ++set) {
     const std::string name = "TEXCOORD_" + std::to_string(set);
@@ -67,6 +71,23 @@ bool GltfMeshes::readPrimitive(const JsonValue& p) {
     }
   }
   return file_.readIndices(p, count, indices_);
+}
+
+void GltfMeshes::readColors(const JsonValue& attributes, size_t count) {
+  colors_.clear();
+  if (!attributes.find("COLOR_0")) return;
+  const size_t accessor = GltfFile::index(attributes["COLOR_0"]);
+  if (file_.read(accessor, 4, colors_)) {
+    if (colors_.size() != count * 4) colors_.clear();
+    return;
+  }
+  std::vector<double> opaque;
+  if (!file_.read(accessor, 3, opaque) || opaque.size() != count * 3) return;
+  reserveWork(colors_, static_cast<double>(count * 4));
+  for (size_t v = 0; v < count; ++v) {
+    gable::work();
+    colors_.insert(colors_.end(), {opaque[3 * v], opaque[3 * v + 1], opaque[3 * v + 2], 1});
+  }
 }
 
 // The vertices' places in the world, as numbers of shared positions.
@@ -109,21 +130,53 @@ uint16_t GltfMeshes::slotOf(size_t material) {
   if (slots_.empty()) slots_.assign(materials_.size() + 1, 0);
   uint32_t& slot = slots_[known];
   if (slot == 0) {
-    if (asset_.materials.size() == kMostMaterials) {
-      tooManyMaterials_ = true;
-      return 0;
-    }
-    asset_.materials.push_back(known < materials_.size() ? materials_[known].material : Material{});
-    slot = static_cast<uint32_t>(asset_.materials.size());
+    slot = newSlot(known < materials_.size() ? materials_[known].material : Material{}) + 1u;
   }
   return static_cast<uint16_t>(slot - 1);
+}
+
+uint16_t GltfMeshes::newSlot(const Material& m) {
+  if (asset_.materials.size() == kMostMaterials) {
+    tooManyMaterials_ = true;
+    return 0;
+  }
+  asset_.materials.push_back(m);
+  return static_cast<uint16_t>(asset_.materials.size() - 1);
+}
+
+// A face has one colour: the mean of its vertices'.
+uint16_t GltfMeshes::slotOf(size_t material, const uint32_t (&vertices)[3]) {
+  if (colors_.empty()) return slotOf(material);
+  std::array<double, 4> light{};
+  for (const uint32_t v : vertices) {
+    for (size_t c = 0; c < 4; ++c) light[c] += colors_[4 * v + c] / 3;
+  }
+  const size_t known = std::min(material, materials_.size());
+  const Material* of = known < materials_.size() ? &materials_[known].material : nullptr;
+  if (of && of->opacityMode == OpacityMode::Opaque) light[3] = 1;
+  std::array<uint8_t, 4> bytes{};
+  const int step = coloredSlots_.size() < kExactColors ? 1 : 51;
+  for (size_t c = 0; c < 4; ++c) {
+    const double part = c < 3 ? srgbOf(light[c]) : (light[c] >= 0 ? std::min(light[c], 1.0) : 0);
+    bytes[c] = static_cast<uint8_t>(std::lround(part * 255 / step) * step);
+  }
+  const auto [at, isNew] = coloredSlots_.try_emplace({known, bytes});
+  if (isNew) {
+    Material m = of ? *of : Material{};
+    const auto tinted = [&](double own, size_t c) {
+      return srgbOf(linearOf(own) * linearOf(bytes[c] / 255.0));
+    };
+    m.color = {tinted(m.color.x, 0), tinted(m.color.y, 1), tinted(m.color.z, 2)};
+    m.opacity *= bytes[3] / 255.0;
+    at->second = newSlot(m);
+  }
+  return at->second;
 }
 
 void GltfMeshes::addTriangles(const JsonValue& primitive, size_t material, const Affine& world,
                               uint32_t group) {
   const size_t mode = modeOf(primitive);
   const bool mirrors = world.determinant() < 0;
-  const uint16_t slot = slotOf(material);
   int sets[kUvSets];
   for (int s = 0; s < kUvSets; ++s) sets[s] = texcoordFor(material, s);
   const size_t step = mode == kTriangles ? 3 : 1;
@@ -134,7 +187,7 @@ void GltfMeshes::addTriangles(const JsonValue& primitive, size_t material, const
     triangle_.assign({numbers_[v[0]], numbers_[v[1]], numbers_[v[2]]});
     if (!filter_.accept(triangle_)) continue;
     MeshBuilder& b = filter_.builder();
-    b.beginFace(slot);
+    b.beginFace(slotOf(material, v));
     b.beginLoop();
     for (const uint32_t vertex : v) {
       const uint32_t c = b.addCorner(filter_.position(numbers_[vertex]));

@@ -9,6 +9,7 @@
 #include "io/image/image.h"
 #include "io/importers/base64.h"
 #include "io/uri.h"
+#include "material/linear_light.h"
 #include "math/trig.h"
 
 namespace gable {
@@ -16,15 +17,9 @@ namespace {
 
 double unit(double v) { return v >= 0 ? std::min(v, 1.0) : 0; }
 
-// Linear light to sRGB (IEC 61966-2-1).
-double encoded(double linear) {
-  const double c = unit(linear);
-  return c <= 0.0031308 ? c * 12.92 : 1.055 * powOf(c, 1 / 2.4) - 0.055;
-}
-
 Vec3 colorOf(const JsonValue& v, const Vec3& fallback) {
   if (v.size() < 3) return fallback;
-  return {encoded(v.at(0).number(0)), encoded(v.at(1).number(0)), encoded(v.at(2).number(0))};
+  return srgbOf(Vec3{v.at(0).number(0), v.at(1).number(0), v.at(2).number(0)});
 }
 
 class Reader {

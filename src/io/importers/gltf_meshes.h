@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <unordered_map>
 #include <vector>
 
@@ -39,9 +40,12 @@ class GltfMeshes {
     size_t operator()(const std::array<double, 3>& p) const;
   };
   bool readPrimitive(const JsonValue& p);
+  void readColors(const JsonValue& attributes, size_t count);
   void place(const Affine& world);
   int texcoordFor(size_t material, int set) const;
   uint16_t slotOf(size_t material);
+  uint16_t slotOf(size_t material, const uint32_t (&vertices)[3]);
+  uint16_t newSlot(const Material& m);
   void addTriangles(const JsonValue& primitive, size_t material, const Affine& world,
                     uint32_t group);
 
@@ -52,10 +56,12 @@ class GltfMeshes {
   FaceFilter filter_;
   std::unordered_map<std::array<double, 3>, uint32_t, PositionHash> known_;
   std::vector<uint32_t> slots_;
+  /// Slots of materials with a colour of vertices: red, green, blue and alpha as bytes.
+  std::map<std::pair<size_t, std::array<uint8_t, 4>>, uint16_t> coloredSlots_;
   uint64_t work_ = 0, broken_ = 0;
   bool tooManyMaterials_ = false;
-  // Of the primitive at hand.
-  std::vector<double> positions_, normals_;
+  // Of the primitive at hand. Colours are four numbers a vertex, in linear light; none where white.
+  std::vector<double> positions_, normals_, colors_;
   std::vector<std::vector<double>> uvs_;
   std::vector<uint32_t> indices_, numbers_, triangle_;
 };

@@ -12,6 +12,7 @@
 #include "io/importers/shape_input.h"
 #include "io/testing/glb_model.h"
 #include "io/testing/scenes.h"
+#include "material/linear_light.h"
 
 namespace gable {
 namespace {
@@ -123,6 +124,86 @@ TEST(GltfAsset, integersStridesAndDataUris) {
   EXPECT_EQ(r->mesh->faceCount(), 1u);
   EXPECT_EQ(r->mesh->area(), 0.5);
   EXPECT_EQ(r->groups, std::vector<std::string>{"M"});
+}
+
+std::string base64(const std::string& bytes) {
+  constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    uint32_t three = 0;
+    for (size_t k = 0; k < 3; ++k) {
+      three = three * 256 + (i + k < bytes.size() ? static_cast<uint8_t>(bytes[i + k]) : 0u);
+    }
+    for (int k = 3; k >= 0; --k) out.push_back(kDigits[three >> (6 * k) & 63]);
+  }
+  const size_t missing = (3 - bytes.size() % 3) % 3;
+  return out.replace(out.size() - missing, missing, missing, '=');
+}
+
+// A triangle with colours of its vertices: the accessor, and 48 bytes for it to read.
+Result<Asset> colored(const std::string& accessor, const std::string& bytes) {
+  std::string text = handMade();
+  const auto put = [&](const std::string& before, const std::string& what) {
+    text.insert(text.find(before), what);
+  };
+  put("},\"indices\":1", ",\"COLOR_0\":2");
+  put("],\n    \"bufferViews\"", ",{\"bufferView\":2," + accessor + "}");
+  put("],\n    \"buffers\"", ",{\"buffer\":1,\"byteLength\":48}");
+  text.insert(text.rfind("]"),
+              ",{\"byteLength\":48,\"uri\":\"data:application/octet-stream;base64," +
+                  base64(bytes) + "\"}");
+  return readGltfAsset(text, optionsFor("a.gltf"));
+}
+
+TEST(GltfAsset, coloursOfVerticesAreColoursOfFaces) {
+  const std::string bytes4 = "\"componentType\":5121,\"normalized\":true,\"count\":3,\"type\":";
+  // A third of full light, and two thirds of alpha.
+  std::string bytes(48, '\0');
+  for (size_t v = 0; v < 3; ++v) bytes[4 * v] = 85;
+  bytes[3] = bytes[7] = '\xff';
+  auto r = colored(bytes4 + "\"VEC4\"", bytes);
+  ASSERT_TRUE(r.ok()) << r.error().message;
+  ASSERT_EQ(r->materials.size(), 1u);
+  EXPECT_NEAR(r->materials[0].color.x, srgbOf(1.0 / 3), 0.002);
+  EXPECT_EQ(r->materials[0].color.y, 0);
+  EXPECT_NEAR(r->materials[0].opacity, 2.0 / 3, 0.002);
+
+  // Of three components, and of the wrong number of vertices.
+  r = colored("\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"", std::string(48, '\0'));
+  ASSERT_TRUE(r.ok());
+  EXPECT_EQ(r->materials[0].color, Vec3{});
+  r = colored("\"componentType\":5126,\"count\":2,\"type\":\"VEC3\"", std::string(48, '\0'));
+  ASSERT_TRUE(r.ok());
+  EXPECT_EQ(r->materials[0].color, (Vec3{1, 1, 1}));
+}
+
+TEST(GltfAsset, coloursWithoutEndAreBounded) {
+  // A strip of 200,000 vertices, each of another colour.
+  const size_t count = 200000;
+  std::string bytes;
+  const auto put = [&](float v) { bytes.append(reinterpret_cast<const char*>(&v), 4); };
+  for (size_t i = 0; i < count; ++i) {
+    put(static_cast<float>(i / 2));
+    put(static_cast<float>(i % 2));
+    put(0);
+  }
+  for (size_t i = 0; i < count * 4; ++i) bytes.push_back(static_cast<char>(i * 2654435761u >> 24));
+  const std::string size = std::to_string(bytes.size()), at = std::to_string(count * 12);
+  const std::string text =
+      R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[
+      {"attributes":{"POSITION":0,"COLOR_0":1},"mode":5}]}],"accessors":[
+      {"bufferView":0,"componentType":5126,"count":200000,"type":"VEC3"},
+      {"bufferView":1,"componentType":5121,"normalized":true,"count":200000,"type":"VEC4"}],
+      "bufferViews":[{"buffer":0,"byteLength":)" +
+      at + R"(},{"buffer":0,"byteOffset":)" + at +
+      R"(,"byteLength":800000}],"buffers":[{"byteLength":)" + size +
+      R"(,"uri":"data:application/octet-stream;base64,)" + base64(bytes) + "\"}]}";
+  auto r = readGltfAsset(text, optionsFor("a.gltf"));
+  ASSERT_TRUE(r.ok()) << r.error().message;
+  EXPECT_EQ(r->mesh->faceCount(), count - 2);
+  EXPECT_GT(r->materials.size(), 4096u);
+  EXPECT_LE(r->materials.size(), 4096u + 6 * 6 * 6 * 6);
 }
 
 TEST(GltfAsset, nodesPlaceAndMirror) {
@@ -258,7 +339,7 @@ TEST(GltfAsset, smallFilesThatShowMuchEnd) {
   const std::string from = R"({"bufferView":0,"componentType":5122,"count":3,"type":"VEC3"})";
   text.replace(text.find(from), from.size(),
                R"({"componentType":5126,"count":1000000,"type":"VEC3"})");
-  const auto r = readGltfAsset(text, optionsFor("a.gltf"));
+  auto r = readGltfAsset(text, optionsFor("a.gltf"));
   EXPECT_FALSE(r.ok());
 }
 

@@ -138,6 +138,7 @@ class Analysis {
   std::vector<std::string_view> styleChain(uint32_t unit, std::string_view style) const;
   void declareAll(ModuleId module);
   void declareRules(ModuleId module, const StyleRanks& ranks);
+  void warnOfStyles(const Tree& t, const std::vector<Declaration>& rules, const StyleRanks& ranks);
   void declareFunctions(ModuleId module, const StyleRanks& ranks);
   void declareAttributes(ModuleId module, const StyleRanks& ranks);
   /// Declarations of one name with the ranks of their styles.
@@ -219,6 +220,7 @@ class Analysis {
   void visitMisfits(const CallTarget& target, std::span<const NodeId> arguments);
   std::string wordOfOther(const CallTarget& target, NodeId node,
                           const std::vector<const ParamSpec*>& params) const;
+  std::string formHint(const CallTarget& target, size_t count) const;
   std::string mismatchHint(NodeId node, const ParamSpec& param, ValueType type) const;
   bool isKnownValue(std::string_view name) const;
   template <class Info>

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "base/number.h"
+#include "lang/other_languages.h"
 #include "lang/sema/analysis.h"
 
 namespace gable::lang {
@@ -258,6 +259,18 @@ void Analysis::reportNamedArguments(const CallTarget& target, std::span<const No
           "write " + forms);
 }
 
+// The nearest form of a call. The names of some operations do in other languages what a shorter one
+// does here: 'translate(0, 1, 0)' is 't(0, 1, 0)'.
+std::string Analysis::formHint(const CallTarget& target, size_t count) const {
+  if (target.signatures.empty()) return {};
+  const ForeignWord* shorter =
+      catalogue_.operation(target.name) ? foreignWord(ForeignUse::Operation, target.name) : nullptr;
+  return "write " + signatureText(target.name, nearestByCount(target.signatures, count)) +
+         (shorter && !shorter->instead.empty()
+              ? ", or the shorter '" + std::string(shorter->instead) + "'"
+              : std::string());
+}
+
 // What to write in the place of a value of the wrong type.
 std::string Analysis::mismatchHint(NodeId node, const ParamSpec& param, ValueType type) const {
   const bool drawn = param.type == ParamType::Drawn && type == ValueType::FloatArray;
@@ -381,10 +394,7 @@ Analysis::Chosen Analysis::checkBuiltinCall(const CallTarget& target,
       reportMisfit(target, "wrong-argument-count", target.node,
                    quote(target.name) + " takes " + countText(target.signatures) + ", not " +
                        std::to_string(args.size()),
-                   target.signatures.empty()
-                       ? ""
-                       : "write " + signatureText(target.name,
-                                                  nearestByCount(target.signatures, args.size())));
+                   formHint(target, args.size()));
     }
     Chosen none;
     none.leaf = target.mayBeLeaf && !anyNamed;
