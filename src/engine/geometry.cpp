@@ -18,7 +18,7 @@ void append(std::vector<double>& out, const Vec3& v) {
 }
 
 TriangleMesh triangleMeshOf(const Mesh& m, FaceTriangulator& triangulator) {
-  Surface surface;
+  DrawSurface surface;
   surface.build(m, triangulator);
   TriangleMesh out;
   for (size_t v = 0; v < surface.corners.size(); ++v) {
