@@ -235,7 +235,8 @@ std::optional<Error> asOtherFile(const std::string& path) {
   if (isOf(kMaps)) {
     return Error{"rules-format", what,
                  "give rules, and its shapes with --shapes '" + path +
-                     "'; 'gable city' makes the place of a whole map"};
+                     "'; 'gable city' makes the place of a whole map; to see a city model, write "
+                     "it as .glb too"};
   }
   if (!isOf(modelExtensions()) && !isOf(kOthers)) return std::nullopt;
   return Error{"rules-format", what,
