@@ -18,21 +18,26 @@ namespace gable {
 
 namespace {
 
-size_t errorsIn(const Diagnostics& diagnostics) {
+size_t countOf(const Diagnostics& diagnostics, Severity severity) {
   const auto& all = diagnostics.all();
-  return static_cast<size_t>(std::count_if(
-      all.begin(), all.end(), [](const auto& d) { return d.severity == Severity::Error; }));
+  return static_cast<size_t>(
+      std::count_if(all.begin(), all.end(), [&](const auto& d) { return d.severity == severity; }));
 }
 
-// How many errors a text has as the notation, null for CGA; none where it holds nothing of it.
-std::optional<size_t> errorsAs(const Dialect* notation, const Sources& sources, uint32_t file,
-                               lang::FileLoader& loader) {
+struct Mistakes {
+  size_t errors = 0, warnings = 0;
+};
+
+// What is wrong with a text as the notation, null for CGA; nothing where it holds nothing of it.
+std::optional<Mistakes> mistakesAs(const Dialect* notation, const Sources& sources, uint32_t file,
+                                   lang::FileLoader& loader) {
   Diagnostics own;
   const lang::Tree tree = notation
                               ? notation->parse({sources, file, builtinCatalogue(), &loader}, own)
                               : lang::parse(sources, file, own);
   const bool holds = tree.root() != lang::kNoNode && !tree.children(tree.root()).empty();
-  return holds ? std::optional(errorsIn(own)) : std::nullopt;
+  if (!holds) return std::nullopt;
+  return Mistakes{countOf(own, Severity::Error), countOf(own, Severity::Warning)};
 }
 
 }  // namespace
@@ -42,22 +47,24 @@ std::optional<Error> asOtherNotation(const std::string& path, const Dialect* rea
                                      lang::FileLoader& loader, const Diagnostics& found) {
   // So many times fewer mistakes make it another notation.
   constexpr size_t kFewer = 4, kManyForItsName = 8;
-  const size_t errors = errorsIn(found);
+  const size_t errors = countOf(found, Severity::Error);
   if (errors == 0) return std::nullopt;
-  // A name that says the notation is believed for longer.
-  const bool named = path.ends_with(".cga") || dialectOfPath(path);
+  // A name that says the notation is believed for longer: that of a grammar unless the text is
+  // another one without a mistake, since some notations forgive much; .cga where the mistakes are
+  // few, since a grammar's few signs are slips of CGA as well.
+  const bool isGrammar = read && dialectOfPath(path);
+  const bool isCga = !read && path.ends_with(".cga") && errors < kManyForItsName;
   std::vector<const Dialect*> others(dialects().begin(), dialects().end());
   others.push_back(nullptr);
   const Dialect* nearest = read;
   size_t least = (errors + kFewer - 1) / kFewer;
   for (const Dialect* d : others) {
     if (d == read) continue;
-    const std::optional<size_t> its = errorsAs(d, sources, file, loader);
-    // A grammar's few signs are slips of CGA as well; what is CGA without a mistake is no grammar.
-    const bool believed = named && errors < kManyForItsName && (!read || (its && *its > 0));
-    if (!its || *its >= least || believed) continue;
+    const std::optional<Mistakes> its = mistakesAs(d, sources, file, loader);
+    if (!its || its->errors >= least || isCga) continue;
+    if (isGrammar && its->errors + its->warnings > 0) continue;
     nearest = d;
-    least = *its;
+    least = its->errors;
   }
   if (nearest == read) return std::nullopt;
   const auto title = [](const Dialect* d) { return std::string(d ? d->title : "CGA"); };

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/files.h"
+#include "base/hash.h"
 #include "base/random.h"
 #include "io/exporters/write_model.h"
 #include "io/importers/base64.h"
@@ -188,7 +189,7 @@ TEST(GltfAsset, coloursWithoutEndAreBounded) {
     put(static_cast<float>(i % 2));
     put(0);
   }
-  for (size_t i = 0; i < count * 4; ++i) bytes.push_back(static_cast<char>(i * 2654435761u >> 24));
+  for (size_t i = 0; i < count * 4; ++i) bytes.push_back(static_cast<char>(hashCombine(7, i)));
   const std::string size = std::to_string(bytes.size()), at = std::to_string(count * 12);
   const std::string text =
       R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[

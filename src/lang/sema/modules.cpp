@@ -371,8 +371,9 @@ void Analysis::declareRules(ModuleId module, const StyleRanks& ranks) {
 // A style holds all that stands between its line and the next style.
 void Analysis::warnOfStyles(const Tree& t, const std::vector<Declaration>& rules,
                             const StyleRanks& ranks) {
-  const auto isUnseen = [&](const Declaration& d) { return ranks.of(d.style) == ranks.none(); };
-  if (rules.empty() || !std::all_of(rules.begin(), rules.end(), isUnseen)) return;
+  const auto isInStyle = [](const Declaration& d) { return d.style != kDefaultStyle; };
+  const bool isDefault = ranks.of(kDefaultStyle) == 0;
+  if (!isDefault || rules.empty() || !std::all_of(rules.begin(), rules.end(), isInStyle)) return;
   const std::string style(rules.front().style);
   warning("rules-in-style", nameSpan(t, rules.front().node),
           "all rules stand in styles that are not in use; this one is of " + quote(style),
