@@ -83,7 +83,7 @@ function makePlace() {
   return folder;
 }
 
-/** So many frames without anything new, and the page waits in vain: seconds would depend on the load. */
+/** After so many frames without anything new the page waits in vain; seconds depend on the load. */
 const MOST_STILL = 900;
 
 /** Runs in the page. */
