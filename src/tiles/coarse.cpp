@@ -42,7 +42,7 @@ constexpr double kAlong = 0.7;
 // The same for faces that would be seen if they did not go.
 constexpr double kFlush = 0.97;
 // A box stands for things whose faces have together at least such a share of its own.
-constexpr double kDense = 0.25;
+constexpr double kDense = 0.5;
 // Colours that are the same have so many steps.
 constexpr double kTints = 1024;
 // A part with so many triangles cannot be simpler.
@@ -178,8 +178,11 @@ class Coarsener {
     addLoose(rest);
   }
 
-  // The largest parts, largest first.
+  // The largest parts, largest first; no narrow panels, which would bear the wall around them.
   std::vector<Bearer> bearersOf(std::vector<size_t> large) const {
+    large.erase(std::remove_if(large.begin(), large.end(),
+                               [&](size_t i) { return widthOf(from_.parts[i].box) < tolerance_; }),
+                large.end());
     std::stable_sort(large.begin(), large.end(), [&](size_t a, size_t b) {
       return faceArea(from_.parts[a].box) > faceArea(from_.parts[b].box);
     });
@@ -378,7 +381,10 @@ class Coarsener {
     const double sides = size.x * size.y + size.y * size.z + size.z * size.x;
     // A railing is no block: its bars go.
     if (tint.weight < kDense * sides) {
-      for (const size_t i : members) miss(from_.parts[i], longestOf(box));
+      for (const size_t i : members) {
+        const Box3& gone = from_.parts[i].box;
+        missed_ = std::max(missed_, std::min(longestOf(gone), widthOf(gone) / kThin));
+      }
       return;
     }
     if (widthOf(box) < side_) return miss(part, longestOf(box));

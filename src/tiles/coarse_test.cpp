@@ -333,7 +333,7 @@ TEST(Coarse, windowsOfAFrontStayAlike) {
     const CoarseModel m = frontOfWindows().coarse(tolerance);
     const auto isWindow = [](const CoarsePart& p) { return p.finish.color.x < 0.4; };
     const auto count = std::count_if(m.parts.begin(), m.parts.end(), isWindow);
-    EXPECT_EQ(count, tolerance < 2.6 ? 32 : 0) << tolerance;
+    EXPECT_EQ(count, tolerance < 2.4 ? 32 : 0) << tolerance;
   }
 }
 

@@ -22,7 +22,7 @@ constexpr double kMostCells = 1024;
 // Directions are equal that differ by less.
 constexpr double kTurn = 1.0 / 1024;
 // A cell is full that is covered so far, and needs no plate where large parts cover so much.
-constexpr double kFull = 0.5, kShown = 31.0 / 32;
+constexpr double kFull = 0.5, kShown = 7.0 / 8;
 // Of the colours of a plate, each of three.
 constexpr double kAlike = 0.12;
 // Rules can make larger ones.
