@@ -162,9 +162,8 @@ class Coarsener {
     for (const Plate& p : plates.plates) {
       if (bearers.size() < kMostBearers) bearers.push_back({&p.part, {}});
     }
-    const auto firstFace = std::stable_partition(rest.begin(), rest.end(), [&](size_t i) {
-      return !isFace(from_.parts[i]);
-    });
+    const auto firstFace = std::stable_partition(rest.begin(), rest.end(),
+                                                 [&](size_t i) { return !isFace(from_.parts[i]); });
     const std::vector<size_t> faces(firstFace, rest.end());
     rest.erase(firstFace, rest.end());
     rest = bear(bearers, rest, false);

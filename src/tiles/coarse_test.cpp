@@ -35,8 +35,9 @@ class Place {
 
   CoarseModel parts(double tolerance = 0) {
     content_.scenes = {scene_};
-    return partsOf(content_, tolerance,
-                   [](const Material& m) { return Finish{m.color, m.roughness}; });
+    return partsOf(content_, tolerance, [](const Material& m) {
+      return Finish{m.color, m.roughness};
+    });
   }
 
   CoarseModel coarse(double tolerance) { return coarsened(parts(tolerance), tolerance); }
@@ -348,8 +349,7 @@ TEST(Coarse, levelsKeepTheMeanLight) {
         for (const CoarsePart& p : m.parts) {
           Box3 box;
           for (const Vec3& c : {p.box.min, p.box.max}) box.include(p.frame.point(c));
-          const bool isThere =
-              x >= box.min.x && x <= box.max.x && y >= box.min.y && y <= box.max.y;
+          const bool isThere = x >= box.min.x && x <= box.max.x && y >= box.min.y && y <= box.max.y;
           if (!isThere || box.max.z <= nearest) continue;
           nearest = box.max.z;
           light = p.finish.color.x;

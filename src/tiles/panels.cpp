@@ -240,11 +240,10 @@ class PanelMaker {
     bool changed = true;
     for (int pass = 0; changed && pass < kMostPasses; ++pass) {
       changed = false;
-      std::stable_sort(rectangles.begin(), rectangles.end(),
-                       [](const Rectangle& a, const Rectangle& b) {
-                         return std::tie(a.box.min.x, a.box.min.y) <
-                                std::tie(b.box.min.x, b.box.min.y);
-                       });
+      std::stable_sort(
+          rectangles.begin(), rectangles.end(), [](const Rectangle& a, const Rectangle& b) {
+            return std::tie(a.box.min.x, a.box.min.y) < std::tie(b.box.min.x, b.box.min.y);
+          });
       for (size_t i = 0; i < rectangles.size(); ++i) {
         if (!rectangles[i].members.empty()) changed = takeIn(rectangles, i) || changed;
       }
