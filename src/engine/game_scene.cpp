@@ -19,6 +19,7 @@
 #include "geom/region/hull.h"
 #include "geom/solid/convex_hull.h"
 #include "io/exporters/plan.h"
+#include "material/linear_light.h"
 #include "scene/flatten.h"
 
 namespace gable {
@@ -35,8 +36,8 @@ constexpr double kStumble = 0.2;
 // Physics engines take no shapes without a volume, in metres.
 constexpr double kThinnest = 0.1;
 // Colours of coarse levels have so many steps, so that their materials are few: of their lightness,
-// and of their differences to grey, which tell the hue.
-constexpr double kLightSteps = 24, kHueSteps = 40;
+// of their differences to grey, which tell the hue, and of how rough they are.
+constexpr double kLightSteps = 24, kHueSteps = 40, kRoughSteps = 10;
 // A level has at most so many triangles of the finer one.
 constexpr double kSaving = 0.8;
 
@@ -154,8 +155,8 @@ void joinFaces(Mesh& mesh) {
 
 class GameSceneMaker {
  public:
-  GameSceneMaker(const Scene& scene, const WriteSettings& settings, const MeanColor& colorOf)
-      : settings_(settings), colorOf_(colorOf), same_(firstOfEqual(scene)) {
+  GameSceneMaker(const Scene& scene, const WriteSettings& settings, const FinishOf& finishOf)
+      : settings_(settings), finishOf_(finishOf), same_(firstOfEqual(scene)) {
     out_.scene = scene;
   }
 
@@ -322,7 +323,7 @@ class GameSceneMaker {
     if (settings_.collision == Collision::None) return;
     const std::string name = collisionName(parts.name, settings_.names, settings_.collision);
     if (settings_.collision == Collision::Mesh) {
-      const CoarseModel model = coarsened(partsOf(content, kStumble, colorOf_), kStumble);
+      const CoarseModel model = coarsened(partsOf(content, kStumble, finishOf_), kStumble);
       parts.collision = addCoarse(meshOf(model, false), name);
       return;
     }
@@ -339,7 +340,7 @@ class GameSceneMaker {
       last += triangleCount(*out_.scene.meshes[out_.scene.leaves[l.leaf].mesh]);
     }
     std::optional<uint32_t> finer = parts.shape;
-    CoarseModel model = partsOf(content, kFineness[0] * size, colorOf_);
+    CoarseModel model = partsOf(content, kFineness[0] * size, finishOf_);
     const bool apart = settings_.levelForm == LevelForm::Files;
     for (int i = 0; i < settings_.levels; ++i) {
       model = coarsened(model, kFineness[static_cast<size_t>(i)] * size);
@@ -372,7 +373,7 @@ class GameSceneMaker {
     std::vector<uint32_t> slots;
     std::map<uint32_t, uint16_t> slotOf;
     for (const CoarsePart& p : model.parts) {
-      const uint32_t material = colored ? materialOf(p.color) : 0;
+      const uint32_t material = colored ? materialOf(p.finish) : 0;
       const auto slot =
           slotOf.try_emplace(material, static_cast<uint16_t>(slotOf.size())).first->second;
       if (slot == slots.size()) slots.push_back(material);
@@ -393,12 +394,14 @@ class GameSceneMaker {
 
   // In steps of lightness, and of orange against blue and green against purple (YCoCg): steps of
   // red, green and blue would turn greys pink and green.
-  uint32_t materialOf(const Vec3& color) {
+  uint32_t materialOf(const Finish& finish) {
+    const Vec3 color = srgbOf(finish.color);
     const double between = (color.x + color.z) / 2;
-    const std::array<int, 3> steps = {
+    const std::array<int, 4> steps = {
         static_cast<int>(std::lround((between + color.y) / 2 * kLightSteps)),
         static_cast<int>(std::lround((color.x - color.z) * kHueSteps)),
-        static_cast<int>(std::lround((color.y - between) * kHueSteps))};
+        static_cast<int>(std::lround((color.y - between) * kHueSteps)),
+        static_cast<int>(std::lround(finish.roughness * kRoughSteps))};
     const auto [at, fresh] =
         materials_.try_emplace(steps, static_cast<uint32_t>(out_.scene.materials.size()));
     if (!fresh) return at->second;
@@ -408,6 +411,7 @@ class GameSceneMaker {
     Material m;
     m.color = {base + orange / 2, light + green / 2, base - orange / 2};
     for (size_t i = 0; i < 3; ++i) m.color[i] = std::clamp(m.color[i], 0.0, 1.0);
+    m.roughness = std::clamp(steps[3] / kRoughSteps, 0.0, 1.0);
     out_.scene.materials.push_back(m);
     return at->second;
   }
@@ -432,12 +436,12 @@ class GameSceneMaker {
   }
 
   const WriteSettings& settings_;
-  const MeanColor& colorOf_;
+  const FinishOf& finishOf_;
   std::vector<uint32_t> same_;
   GameScene out_;
   UniqueNames unique_;
   std::map<uint32_t, StandIns> standIns_;
-  std::map<std::array<int, 3>, uint32_t> materials_;
+  std::map<std::array<int, 4>, uint32_t> materials_;
   std::vector<std::vector<uint32_t>> levels_;
 };
 
@@ -447,8 +451,8 @@ bool asksForGameScene(const WriteSettings& s) {
   return s.names != Names::Rules || s.collision != Collision::None || s.levels > 0;
 }
 
-GameScene gameSceneOf(const Scene& scene, const WriteSettings& settings, const MeanColor& colorOf) {
-  return GameSceneMaker(scene, settings, colorOf).run();
+GameScene gameSceneOf(const Scene& scene, const WriteSettings& settings, const FinishOf& finishOf) {
+  return GameSceneMaker(scene, settings, finishOf).run();
 }
 
 }  // namespace gable

@@ -27,6 +27,6 @@ struct GameScene {
 bool asksForGameScene(const WriteSettings& settings);
 
 /// The scene is copied. Linear in the flattened leaves, n log n in the triangles of coarse levels.
-GameScene gameSceneOf(const Scene& scene, const WriteSettings& settings, const MeanColor& colorOf);
+GameScene gameSceneOf(const Scene& scene, const WriteSettings& settings, const FinishOf& finishOf);
 
 }  // namespace gable

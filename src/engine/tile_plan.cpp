@@ -20,7 +20,7 @@ namespace gable {
 namespace {
 
 // Of the files of a plan; a program with another one cannot go on with it.
-constexpr int kFormat = 3;
+constexpr int kFormat = 4;
 constexpr uint64_t kMostPlanBytes = 64 << 20;
 
 std::string hex(uint64_t v) {

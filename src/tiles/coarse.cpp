@@ -23,6 +23,7 @@
 #include "base/hash.h"
 #include "base/work.h"
 #include "scene/flatten.h"
+#include "tiles/panels.h"
 #include "tiles/plates.h"
 
 namespace gable {
@@ -38,6 +39,10 @@ constexpr double kThin = 1.0 / 8;
 constexpr double kFlat = 0.25;
 // Of the normals of what lies along each other, the least cosine.
 constexpr double kAlong = 0.7;
+// The same for faces that would be seen if they did not go.
+constexpr double kFlush = 0.97;
+// A box stands for things whose faces have together at least such a share of its own.
+constexpr double kDense = 0.5;
 // Colours that are the same have so many steps.
 constexpr double kTints = 1024;
 // A part with so many triangles cannot be simpler.
@@ -110,8 +115,9 @@ double distance2(const Vec3& p, const std::array<Vec3, 3>& t) {
 
 class Coarsener {
  public:
-  Coarsener(const CoarseModel& from, double tolerance)
-      : from_(from), tolerance_(tolerance), side_(tolerance / 2) {}
+  /// `missed`: how far parts of `from` are from what they stand for already.
+  Coarsener(const CoarseModel& from, double tolerance, double missed)
+      : from_(from), tolerance_(tolerance), side_(tolerance / 2), missed_(missed) {}
 
   CoarseModel run() {
     out_.features = from_.features;
@@ -128,7 +134,13 @@ class Coarsener {
 
  private:
   bool isLarge(const CoarsePart& p) const {
-    return p.triangleCount > 0 && widthOf(p.box) >= tolerance_;
+    return p.triangleCount > 0 && (p.isPanel || widthOf(p.box) >= tolerance_);
+  }
+
+  // Faces that are half as wide are kept where they lie on nothing, such as those of a dormer: it
+  // costs no more to show them than what stands for them.
+  bool isFace(const CoarsePart& p) const {
+    return p.triangleCount > 0 && p.triangleCount <= kSimple && widthOf(p.box) >= side_;
   }
 
   // A part that smaller ones lie on, and the colour that they give it.
@@ -150,18 +162,26 @@ class Coarsener {
     for (const Plate& p : plates.plates) {
       if (bearers.size() < kMostBearers) bearers.push_back({&p.part, {}});
     }
+    const auto firstFace = std::stable_partition(rest.begin(), rest.end(),
+                                                 [&](size_t i) { return !isFace(from_.parts[i]); });
+    const std::vector<size_t> faces(firstFace, rest.end());
+    rest.erase(firstFace, rest.end());
     rest = bear(bearers, rest, false);
     const Tints tints = tintsOf(bearers);
     for (size_t i = 0; i < large.size(); ++i) {
       const CoarsePart& p = from_.parts[large[i]];
-      copy(p, tintOf(tints, p.color), plates.moves[i]);
+      copy(p, tintOf(tints, p.finish), plates.moves[i]);
     }
-    for (Plate& p : plates.plates) addPlate(p, tintOf(tints, p.part.color));
+    for (Plate& p : plates.plates) addPlate(p, tintOf(tints, p.part.finish));
+    for (const size_t i : faces) copy(from_.parts[i], tintOf(tints, from_.parts[i].finish), {});
     addLoose(rest);
   }
 
-  // The largest parts, largest first.
+  // The largest parts, largest first; no narrow panels, which would bear the wall around them.
   std::vector<Bearer> bearersOf(std::vector<size_t> large) const {
+    large.erase(std::remove_if(large.begin(), large.end(),
+                               [&](size_t i) { return widthOf(from_.parts[i].box) < tolerance_; }),
+                large.end());
     std::stable_sort(large.begin(), large.end(), [&](size_t a, size_t b) {
       return faceArea(from_.parts[a].box) > faceArea(from_.parts[b].box);
     });
@@ -196,7 +216,7 @@ class Coarsener {
         continue;
       }
       last = at;
-      bearers[at].tint.add(p.color, faceArea(p.box));
+      bearers[at].tint.add(p.finish, faceArea(p.box));
       miss(p, distanceToSurface(*bearers[at].part, corners));
     }
     return rest;
@@ -236,7 +256,8 @@ class Coarsener {
     if (!isSheet(part)) return true;
     const size_t across = thinnestOf(part.box.size());
     const std::optional<Vec3> normal = normalNear(bearer, center);
-    return normal && std::abs(dot(*normal, axisOf(part.frame, across))) > kAlong;
+    const double least = isFace(part) ? kFlush : kAlong;
+    return normal && std::abs(dot(*normal, axisOf(part.frame, across))) > least;
   }
 
   // Of what a part shows nearest to a point; none where that is too much to look through.
@@ -266,24 +287,24 @@ class Coarsener {
   // By the colour that parts had: walls of one stone stay of one colour.
   using Tints = std::map<std::array<int64_t, 3>, Tint>;
 
-  static std::array<int64_t, 3> keyOf(const Vec3& color) {
+  static std::array<int64_t, 3> keyOf(const Finish& finish) {
     // Means of equal colours differ in their last digits.
-    return cellOf(color + Vec3{0.5, 0.5, 0.5} * (1 / kTints), 1 / kTints);
+    return cellOf(finish.color + Vec3{0.5, 0.5, 0.5} * (1 / kTints), 1 / kTints);
   }
 
   static Tints tintsOf(const std::vector<Bearer>& bearers) {
     Tints out;
     for (const Bearer& b : bearers) {
-      Tint& tint = out[keyOf(b.part->color)];
-      tint.add(b.part->color, b.part->area);
+      Tint& tint = out[keyOf(b.part->finish)];
+      tint.add(b.part->finish, b.part->area);
       tint.add(b.tint);
     }
     return out;
   }
 
-  static Vec3 tintOf(const Tints& tints, const Vec3& color) {
-    const auto found = tints.find(keyOf(color));
-    return found == tints.end() ? color : found->second.mean(color);
+  static Finish tintOf(const Tints& tints, const Finish& finish) {
+    const auto found = tints.find(keyOf(finish));
+    return found == tints.end() ? finish : found->second.mean(finish);
   }
 
   // What lies on nothing.
@@ -327,9 +348,9 @@ class Coarsener {
     return std::sqrt(farthest);
   }
 
-  void copy(const CoarsePart& p, const Vec3& color, const Vec3& move) {
+  void copy(const CoarsePart& p, const Finish& finish, const Vec3& move) {
     CoarsePart part = p;
-    part.color = color;
+    part.finish = finish;
     part.firstVertex = static_cast<uint32_t>(out_.vertices.size());
     part.firstTriangle = static_cast<uint32_t>(out_.triangles.size());
     const auto vertices = from_.vertices.begin() + p.firstVertex;
@@ -348,13 +369,23 @@ class Coarsener {
     for (const size_t i : members) {
       const CoarsePart& p = from_.parts[i];
       for (const Vec3& c : cornersOf(p)) box.include(c);
-      tint.add(p.color, faceArea(p.box));
+      tint.add(p.finish, faceArea(p.box));
     }
     CoarsePart part;
     part.feature = from_.parts[members[0]].feature;
-    part.color = tint.mean(from_.parts[members[0]].color);
+    part.finish = tint.mean(from_.parts[members[0]].finish);
     part.area = faceArea(box);
     part.box = box;
+    const Vec3 size = box.size();
+    const double sides = size.x * size.y + size.y * size.z + size.z * size.x;
+    // A railing is no block: its bars go.
+    if (tint.weight < kDense * sides) {
+      for (const size_t i : members) {
+        const Box3& gone = from_.parts[i].box;
+        missed_ = std::max(missed_, std::min(longestOf(gone), widthOf(gone) / kThin));
+      }
+      return;
+    }
     if (widthOf(box) < side_) return miss(part, longestOf(box));
     addBox(part);
     missed_ = std::max(missed_, length(box.size()));
@@ -379,9 +410,9 @@ class Coarsener {
     missed_ = std::max(missed_, std::sqrt(s[wide] * s[wide] + s[thin] * s[thin]) / 2);
   }
 
-  void addPlate(const Plate& plate, const Vec3& color) {
+  void addPlate(const Plate& plate, const Finish& finish) {
     CoarsePart part = plate.part;
-    part.color = color;
+    part.finish = finish;
     part.firstVertex = static_cast<uint32_t>(out_.vertices.size());
     part.firstTriangle = static_cast<uint32_t>(out_.triangles.size());
     addSheet(part, 0, 1, 2);
@@ -534,18 +565,20 @@ class Coarsener {
 
   const CoarseModel& from_;
   double tolerance_, side_;
+  /// The farthest of what is not shown from what is, and of a corner from where it was.
+  double missed_;
+  double shift_ = 0;
   CoarseModel out_;
   /// Of a vertex: it is joined with others, stays where it is, or stays and draws others to it.
   enum class Corner : uint8_t { Joined, Free, Anchor };
   std::vector<Corner> corners_;
-  double missed_ = 0, shift_ = 0;
 };
 
 // One leaf: a part for each of its material slots.
 class PartMaker {
  public:
-  PartMaker(const TileContent& content, double tolerance, const MeanColor& colorOf)
-      : content_(content), tolerance_(tolerance), colorOf_(colorOf) {}
+  PartMaker(const TileContent& content, double tolerance, const FinishOf& finishOf)
+      : content_(content), tolerance_(tolerance), finishOf_(finishOf) {}
 
   CoarseModel run() {
     out_.features = content_.features;
@@ -554,9 +587,9 @@ class PartMaker {
   }
 
  private:
-  const Vec3& colorOf(uint32_t scene, uint32_t material, const Material& m) {
-    const auto [at, fresh] = colors_.try_emplace({scene, material});
-    if (fresh) at->second = colorOf_(m);
+  const Finish& finishOf(uint32_t scene, uint32_t material, const Material& m) {
+    const auto [at, fresh] = finishes_.try_emplace({scene, material});
+    if (fresh) at->second = finishOf_(m);
     return at->second;
   }
 
@@ -572,8 +605,8 @@ class PartMaker {
     part.area = faceArea(part.box);
     if (widthOf(part.box) < tolerance_) {
       const uint32_t slot = mesh.faces.empty() ? 0 : mesh.faces[0].materialSlot;
-      part.color =
-          colorOf(l.scene, materialIndexOf(scene, leaf, slot), materialOf(scene, leaf, slot));
+      part.finish =
+          finishOf(l.scene, materialIndexOf(scene, leaf, slot), materialOf(scene, leaf, slot));
       out_.parts.push_back(part);
       return;
     }
@@ -582,8 +615,8 @@ class PartMaker {
       triangulator_.add(mesh, f, slots[mesh.faces[f].materialSlot]);
     }
     for (const auto& [slot, triangles] : slots) {
-      part.color =
-          colorOf(l.scene, materialIndexOf(scene, leaf, slot), materialOf(scene, leaf, slot));
+      part.finish =
+          finishOf(l.scene, materialIndexOf(scene, leaf, slot), materialOf(scene, leaf, slot));
       addTriangles(part, l, leaf, mesh, triangles);
     }
   }
@@ -614,9 +647,9 @@ class PartMaker {
 
   const TileContent& content_;
   double tolerance_;
-  const MeanColor& colorOf_;
+  const FinishOf& finishOf_;
   FaceTriangulator triangulator_;
-  std::map<std::pair<uint32_t, uint32_t>, Vec3> colors_;
+  std::map<std::pair<uint32_t, uint32_t>, Finish> finishes_;
   CoarseModel out_;
 };
 
@@ -638,12 +671,13 @@ void CoarseModel::append(CoarseModel&& other) {
   error = std::max(error, other.error);
 }
 
-CoarseModel partsOf(const TileContent& content, double tolerance, const MeanColor& colorOf) {
-  return PartMaker(content, tolerance, colorOf).run();
+CoarseModel partsOf(const TileContent& content, double tolerance, const FinishOf& finishOf) {
+  return PartMaker(content, tolerance, finishOf).run();
 }
 
 CoarseModel coarsened(const CoarseModel& model, double tolerance) {
-  return Coarsener(model, tolerance).run();
+  const Panelled panelled = withPanels(model, tolerance);
+  return Coarsener(panelled.model, tolerance, panelled.offset).run();
 }
 
 }  // namespace gable

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Coarse models: what a place looks like from far away, made of what the rules made of it.
+// Coarse models: what a place finishs like from far away, made of what the rules made of it.
 //
 // A model is a list of parts: a leaf, or a box that stands for many small ones. coarsened() makes a
 // model with a tolerance of a model with a smaller one:
@@ -26,6 +26,7 @@
 #include <functional>
 #include <vector>
 
+#include "tiles/finish.h"
 #include "tiles/tile_content.h"
 
 namespace gable {
@@ -33,9 +34,8 @@ namespace gable {
 struct CoarsePart {
   /// Index into CoarseModel::features; ascending.
   uint32_t feature = 0;
-  /// sRGB.
-  Vec3 color;
-  /// Square metres, the weight of its colour.
+  Finish finish;
+  /// Square metres, the weight of its look.
   double area = 0;
   /// The box of the part, in a frame that fits it.
   Frame frame;
@@ -43,6 +43,9 @@ struct CoarsePart {
   /// Ranges of CoarseModel::triangles and vertices; both empty for what is small.
   uint32_t firstVertex = 0, vertexCount = 0;
   uint32_t firstTriangle = 0, triangleCount = 0;
+  /// Whether it stays while it is narrower than the tolerance, as the windows beside it do
+  /// (tiles/panels.h).
+  bool isPanel = false;
 };
 
 struct CoarseModel {
@@ -56,11 +59,11 @@ struct CoarseModel {
   void append(CoarseModel&& other);
 };
 
-/// What a material looks like from far away, sRGB.
-using MeanColor = std::function<Vec3(const Material&)>;
+/// What a material finishs like from far away.
+using FinishOf = std::function<Finish(const Material&)>;
 
 /// The parts of a tile; those narrower than `tolerance` without their triangles.
-CoarseModel partsOf(const TileContent& content, double tolerance, const MeanColor& colorOf);
+CoarseModel partsOf(const TileContent& content, double tolerance, const FinishOf& finishOf);
 
 /// O(n log n) in the parts, times how many large ones a feature has in the worst case.
 CoarseModel coarsened(const CoarseModel& model, double tolerance);

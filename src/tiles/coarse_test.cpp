@@ -33,11 +33,14 @@ class Place {
     content_.leaves.push_back(at);
   }
 
-  CoarseModel coarse(double tolerance) {
+  CoarseModel parts(double tolerance = 0) {
     content_.scenes = {scene_};
-    return coarsened(partsOf(content_, tolerance, [](const Material& m) { return m.color; }),
-                     tolerance);
+    return partsOf(content_, tolerance, [](const Material& m) {
+      return Finish{m.color, m.roughness};
+    });
   }
+
+  CoarseModel coarse(double tolerance) { return coarsened(parts(tolerance), tolerance); }
 
  private:
   std::shared_ptr<Scene> scene_ = std::make_shared<Scene>();
@@ -65,8 +68,8 @@ TEST(Coarse, detailsColourWhatTheyLieOn) {
   for (int i = 0; i < 8; ++i) place.add({i * 1.2, 3, -0.1}, {0.9, 0.9, 0.1}, 1);
   const CoarseModel m = place.coarse(1);
   ASSERT_EQ(m.parts.size(), 1u);
-  EXPECT_LT(m.parts[0].color.x, 0.99);
-  EXPECT_GT(m.parts[0].color.x, 0.8);
+  EXPECT_LT(m.parts[0].finish.color.x, 0.99);
+  EXPECT_GT(m.parts[0].finish.color.x, 0.8);
   EXPECT_EQ(m.triangles.size(), 12u);
 }
 
@@ -204,7 +207,7 @@ TEST(Coarse, stripsOfOneWallBecomeAPlate) {
   for (int i = 0; i < 96; ++i) place.add({0.25 * i, 0, 0}, {0.25, 30, 0}, i % 2);
   const CoarseModel m = place.coarse(0.75);
   ASSERT_EQ(m.parts.size(), 1u);
-  EXPECT_NEAR(m.parts[0].color.x, 0.5, 0.01);
+  EXPECT_NEAR(m.parts[0].finish.color.x, 0.5, 0.01);
   EXPECT_EQ(m.triangles.size(), 2u);
   EXPECT_NEAR(areaOf(m), 24 * 30, 1);
   EXPECT_LE(m.error, 0.75);
@@ -217,8 +220,8 @@ TEST(Coarse, platesEndWhereColoursDo) {
   const CoarseModel m = place.coarse(0.75);
   ASSERT_GE(m.parts.size(), 2u);
   EXPECT_LE(m.parts.size(), 4u);
-  EXPECT_NEAR(m.parts.front().color.x, 1, 0.01);
-  EXPECT_NEAR(m.parts.back().color.x + m.parts[1].color.x, 0, 1);
+  EXPECT_NEAR(m.parts.front().finish.color.x, 1, 0.01);
+  EXPECT_NEAR(m.parts.back().finish.color.x + m.parts[1].finish.color.x, 0, 1);
   EXPECT_NEAR(areaOf(m), 24 * 12, 1);
 }
 
@@ -236,7 +239,7 @@ TEST(Coarse, wallsOfStripsAreClosedAroundWindows) {
     }
   }
   const CoarseModel m = place.coarse(0.8);
-  const auto isDark = [](const CoarsePart& p) { return p.color.x < 0.1; };
+  const auto isDark = [](const CoarsePart& p) { return p.finish.color.x < 0.1; };
   EXPECT_EQ(std::count_if(m.parts.begin(), m.parts.end(), isDark), 64);
   // Points between the windows and at their edges are near something.
   for (double x = 0.1; x < 24; x += 0.47) {
@@ -302,12 +305,86 @@ TEST(Coarse, levelsOfAFrontHaveNoHoles) {
   }
 }
 
+// A front of strips with windows of frames and panes, and doors: 24 m by 12 m.
+Place frontOfWindows() {
+  Place place;
+  for (int floor = 0; floor < 4; ++floor) {
+    for (int bay = 0; bay < 8; ++bay) {
+      const Vec3 at{3.0 * bay, 3.0 * floor, 0};
+      const double wide = (bay + floor) % 3 == 0 ? 1.4 : 1.2, side = (3 - wide) / 2;
+      place.add(at, {side, 3, 0});
+      place.add(at + Vec3{3 - side, 0, 0}, {side, 3, 0});
+      place.add(at + Vec3{side, 0, 0}, {wide, 0.9, 0});
+      place.add(at + Vec3{side, 2.4, 0}, {wide, 0.6, 0});
+      const double pane = (wide - 0.24) / 2;
+      for (int i = 0; i < 3; ++i) {
+        place.add(at + Vec3{side + i * (pane + 0.08), 0.9, -0.12}, {0.08, 1.5, 0});
+      }
+      for (int i = 0; i < 2; ++i) {
+        place.add(at + Vec3{side + 0.08 + i * (pane + 0.08), 0.9, -0.12}, {pane, 1.5, 0}, 1);
+      }
+    }
+  }
+  return place;
+}
+
+// Windows of 1.2 m and of 1.4 m stay together or go together, whatever the tolerance.
+TEST(Coarse, windowsOfAFrontStayAlike) {
+  for (const double tolerance : {0.6, 0.86, 1.1, 1.3, 2.2, 2.5, 2.7, 3.5, 5.0}) {
+    const CoarseModel m = frontOfWindows().coarse(tolerance);
+    const auto isWindow = [](const CoarsePart& p) { return p.finish.color.x < 0.4; };
+    const auto count = std::count_if(m.parts.begin(), m.parts.end(), isWindow);
+    EXPECT_EQ(count, tolerance < 2.4 ? 32 : 0) << tolerance;
+  }
+}
+
+// Seen from the front, square by square, the light of a level is that of the full model.
+TEST(Coarse, levelsKeepTheMeanLight) {
+  const auto lightOf = [](const CoarseModel& m) {
+    double sum = 0;
+    int count = 0;
+    for (double x = 0.05; x < 24; x += 0.1) {
+      for (double y = 0.05; y < 12; y += 0.1) {
+        double nearest = -1e9, light = 0;
+        for (const CoarsePart& p : m.parts) {
+          Box3 box;
+          for (const Vec3& c : {p.box.min, p.box.max}) box.include(p.frame.point(c));
+          const bool isThere = x >= box.min.x && x <= box.max.x && y >= box.min.y && y <= box.max.y;
+          if (!isThere || box.max.z <= nearest) continue;
+          nearest = box.max.z;
+          light = p.finish.color.x;
+        }
+        sum += light;
+        ++count;
+      }
+    }
+    return sum / count;
+  };
+  const double full = lightOf(frontOfWindows().parts());
+  EXPECT_GT(full, 0.7);
+  EXPECT_LT(full, 0.9);
+  for (const double tolerance : {0.6, 0.86, 2.2, 3.5, 5.0}) {
+    EXPECT_NEAR(lightOf(frontOfWindows().coarse(tolerance)), full, 0.02) << tolerance;
+  }
+}
+
+// The bars of a railing do not become a block, however they lie in the cells.
+TEST(Coarse, railingsAreNoBlocks) {
+  for (double x = 0; x < 0.9; x += 0.1) {
+    Place place;
+    place.add({0, 0, 0}, {10, 6, 8});
+    for (int i = 0; i < 12; ++i) place.add({x + 0.16 * i, 3, -1.2}, {0.04, 0.9, 0.0}, 1);
+    for (int i = 0; i < 6; ++i) place.add({x, 3, -1.2 + 0.16 * i}, {0.0, 0.9, 0.04}, 1);
+    for (const CoarsePart& p : place.coarse(0.86).parts) EXPECT_GT(p.finish.color.x, 0.9) << x;
+  }
+}
+
 // A wall with windows on it is one wall: nothing is put behind it.
 TEST(Coarse, wallsThatAreLargeGetNoPlate) {
   Place place;
   place.add({0, 0, 0}, {24, 12, 0});
   for (int i = 0; i < 60; ++i) {
-    place.add({0.3 + 2.0 * (i % 12), 1 + 2.2 * (i / 12), 0.1}, {0.7, 1.2, 0}, 1);
+    place.add({0.3 + 2.0 * (i % 12), 1 + 2.2 * (i / 12), 0.1}, {0.15, 1.2, 0}, 1);
   }
   for (int i = 0; i < 2; ++i) place.add({i * 24.0 - i * 0.3, 0, 0.05}, {0.3, 12, 0}, 1);
   EXPECT_EQ(place.coarse(0.8).parts.size(), 1u);
@@ -320,8 +397,8 @@ TEST(Coarse, piecesOfOneColourKeepOne) {
   for (int i = 0; i < 5; ++i) place.add({1.0 + 0.5 * i, 3, 0.1}, {0.4, 1, 0}, 1);
   const CoarseModel m = place.coarse(1);
   ASSERT_EQ(m.parts.size(), 4u);
-  for (const CoarsePart& p : m.parts) EXPECT_EQ(p.color, m.parts[0].color);
-  EXPECT_LT(m.parts[0].color.x, 1);
+  for (const CoarsePart& p : m.parts) EXPECT_EQ(p.finish.color, m.parts[0].finish.color);
+  EXPECT_LT(m.parts[0].finish.color.x, 1);
 }
 
 TEST(Coarse, partsInOneDirectionThatLieApartMakeNoPlate) {

@@ -33,6 +33,9 @@ constexpr int64_t kLongest = 128;
 constexpr double kHidden = 0.25;
 // A rectangle has at least such a share of cells that need it.
 constexpr double kNeeded = 0.25;
+// Large parts farther behind or before are not of the wall, such as the fronts of dormers: a share
+// of the tolerance, and metres.
+constexpr double kReveal = 0.25, kLeastReveal = 0.25;
 
 // A part that is thin across its plane.
 struct Sheet {
@@ -55,7 +58,7 @@ struct Cover {
   double narrow = 0, large = 0;
   /// Of what a plate shows here, and here and in the cells around.
   Tint tint;
-  Vec3 around;
+  Finish around;
   Kind kind = Kind::Empty;
   /// Of a rectangle.
   bool isOwned = false;
@@ -75,7 +78,9 @@ class PlaneGrid {
     chooseFrame();
     measure();
     if (!isWide()) return;
-    for (const Sheet& s : sheets_) cover(s);
+    for (const Sheet& s : sheets_) {
+      if (isInWall(s)) cover(s);
+    }
     judgeCells();
     findRectangles();
     emit(out);
@@ -153,6 +158,12 @@ class PlaneGrid {
     return weighted.back().first;
   }
 
+  bool isInWall(const Sheet& s) const {
+    if (!s.isLarge) return true;
+    const double away = inPlane(partOf(s)).center().z - depth_;
+    return std::abs(away) <= kReveal * tolerance_ + kLeastReveal;
+  }
+
   bool isWide() const {
     const Vec3 size = reach_.size();
     return std::isfinite(size.x + size.y) && std::min(size.x, size.y) >= tolerance_;
@@ -162,7 +173,7 @@ class PlaneGrid {
     forEachCell(s, [&](const Cell& at, double share) {
       Cover& cell = cells_[at];
       (s.isLarge ? cell.large : cell.narrow) += share;
-      if (!s.isLarge) cell.tint.add(partOf(s).color, share);
+      if (!s.isLarge) cell.tint.add(partOf(s).finish, share);
     });
   }
 
@@ -213,7 +224,7 @@ class PlaneGrid {
     for (auto& [at, c] : cells_) {
       work();
       c.kind = kindOf(c);
-      if (c.kind == Kind::Needed) c.around = colorAround(at);
+      if (c.kind == Kind::Needed) c.around = finishAround(at);
     }
   }
 
@@ -233,7 +244,7 @@ class PlaneGrid {
 
   // The mean of the narrow parts in a cell and around it: windows and the wall between them are one
   // colour, the house beside may have another.
-  Vec3 colorAround(const Cell& at) const {
+  Finish finishAround(const Cell& at) const {
     Tint sum;
     for (int64_t y = -1; y <= 1; ++y) {
       for (int64_t x = -1; x <= 1; ++x) add(sum, {at.first + y, at.second + x});
@@ -248,16 +259,14 @@ class PlaneGrid {
 
   // As far to the sides as cells are at least of a kind and of a colour, then as far up and down.
   Rectangle grown(const Cell& from, Kind least) const {
-    const Vec3 color = cells_.at(from).around;
+    const Finish finish = cells_.at(from).around;
     const auto isFree = [&](int64_t y, int64_t x) {
       work();
       const auto found = cells_.find({y, x});
       if (found == cells_.end()) return false;
       const Cover& c = found->second;
       if (c.kind < least || c.isOwned) return false;
-      const Vec3 d = c.around - color;
-      return c.kind == Kind::Shown ||
-             std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) <= kAlike;
+      return c.kind == Kind::Shown || distanceOf(c.around, finish) <= kAlike;
     };
     Rectangle r{from.second, from.first, 1, 1};
     while (r.width < kLongest && isFree(r.y, r.x + r.width)) ++r.width;
@@ -323,7 +332,7 @@ class PlaneGrid {
   std::vector<const Sheet*> hiddenParts() {
     std::vector<const Sheet*> out;
     for (const Sheet& s : sheets_) {
-      if (!s.isLarge) continue;
+      if (!s.isLarge || !isInWall(s)) continue;
       double whole = 0, hidden = 0;
       std::vector<std::pair<Cell, double>> cells;
       forEachCell(s, [&](const Cell& at, double share) {
@@ -336,7 +345,7 @@ class PlaneGrid {
         out.push_back(&s);
         continue;
       }
-      for (const auto& [at, share] : cells) cells_[at].tint.add(partOf(s).color, share);
+      for (const auto& [at, share] : cells) cells_[at].tint.add(partOf(s).finish, share);
     }
     return out;
   }
@@ -366,7 +375,7 @@ class PlaneGrid {
     for (int64_t y = r.y; y < r.y + r.height; ++y) {
       for (int64_t x = r.x; x < r.x + r.width; ++x) add(sum, {y, x});
     }
-    p.color = sum.mean(partOf(*main_).color);
+    p.finish = sum.mean(partOf(*main_).finish);
     p.frame = frame_;
     const auto at = [&](size_t i, int64_t cell) {
       return reach_.min[i] + side_[i] * static_cast<double>(cell);

@@ -20,21 +20,6 @@
 
 namespace gable {
 
-/// A colour and how much of it there is.
-struct Tint {
-  Vec3 sum;
-  double weight = 0;
-  void add(const Vec3& color, double area) {
-    sum += color * area;
-    weight += area;
-  }
-  void add(const Tint& other) {
-    sum += other.sum;
-    weight += other.weight;
-  }
-  Vec3 mean(const Vec3& otherwise) const { return weight > 0 ? sum * (1 / weight) : otherwise; }
-};
-
 /// The axis along which a box is thinnest, the first of equal ones.
 size_t thinnestOf(const Vec3& size);
 
@@ -49,7 +34,7 @@ std::array<Vec3, 8> cornersOf(const CoarsePart& p);
 
 struct Plate {
   /// A rectangle: a box without thickness across its z, which points where its parts look. It
-  /// has no triangles yet. Its colour is the mean of the narrow parts that it stands for.
+  /// has no triangles yet. Its look is the mean of the narrow parts that it stands for.
   CoarsePart part;
   /// How far the farthest of what it stands for is from its plane, in metres.
   double offset = 0;

@@ -13,7 +13,7 @@ namespace gable {
 
 namespace {
 
-Vec3 meanOf(const std::vector<uint8_t>& rgba) {
+Vec3 meanLight(const std::vector<uint8_t>& rgba) {
   std::array<double, 256> linear{};
   for (size_t i = 0; i < linear.size(); ++i) linear[i] = linearOf(static_cast<double>(i) / 255);
   Vec3 sum;
@@ -26,24 +26,41 @@ Vec3 meanOf(const std::vector<uint8_t>& rgba) {
   return weight > 0 ? sum * (1 / weight) : Vec3{1, 1, 1};
 }
 
-}  // namespace
-
-Vec3 TextureTints::of(const Material& m) {
-  const std::string& path = m.map(TextureLayer::Color).path;
-  if (path.empty()) return m.color;
-  const auto [at, fresh] = known_.try_emplace(path, Vec3{1, 1, 1});
-  if (fresh) at->second = meanOf(path);
-  Vec3 out;
-  for (size_t i = 0; i < 3; ++i) out[i] = srgbOf(linearOf(m.color[i]) * at->second[i]);
-  return out;
+double meanNumber(const std::vector<uint8_t>& rgba) {
+  uint64_t sum = 0;
+  for (size_t i = 1; i < rgba.size(); i += 4) sum += rgba[i];
+  return rgba.empty() ? 1 : static_cast<double>(sum) * 4 / 255 / static_cast<double>(rgba.size());
 }
 
-Vec3 TextureTints::meanOf(const std::string& path) const {
-  const Result<std::string> bytes =
-      read_ ? read_(path) : Result<std::string>(Error{"texture-not-found", "", ""});
-  if (!bytes.ok()) return {1, 1, 1};
+}  // namespace
+
+Finish TextureTints::of(const Material& m) {
+  const Vec3& picture = meanLight(m.map(TextureLayer::Color).path);
+  Finish finish;
+  for (size_t i = 0; i < 3; ++i) finish.color[i] = linearOf(m.color[i]) * picture[i];
+  // Numbers, not light: glTF has them in green, as single channels have.
+  finish.roughness = m.roughness * meanNumber(m.map(TextureLayer::Roughness).path);
+  return finish;
+}
+
+const Vec3& TextureTints::meanLight(const std::string& path) {
+  const auto [at, fresh] = colors_.try_emplace(path, Vec3{1, 1, 1});
+  if (fresh && !path.empty()) at->second = gable::meanLight(rgbaOf(path));
+  return at->second;
+}
+
+double TextureTints::meanNumber(const std::string& path) {
+  const auto [at, fresh] = numbers_.try_emplace(path, 1);
+  if (fresh && !path.empty()) at->second = gable::meanNumber(rgbaOf(path));
+  return at->second;
+}
+
+std::vector<uint8_t> TextureTints::rgbaOf(const std::string& path) const {
+  if (!read_) return {};
+  const Result<std::string> bytes = read_(path);
+  if (!bytes.ok()) return {};
   const Result<Image> image = decodeImage(bytes.value());
-  return image.ok() ? gable::meanOf(image.value().rgba) : Vec3{1, 1, 1};
+  return image.ok() ? image.value().rgba : std::vector<uint8_t>{};
 }
 
 }  // namespace gable

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// What materials look like from far away: their colour, times the mean of their texture.
+// What materials look like from far away: their colour, times the mean of their texture, and how
+// rough they are.
 #pragma once
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "io/exporters/write_model.h"
+#include "tiles/finish.h"
 
 namespace gable {
 
@@ -15,16 +18,19 @@ class TextureTints {
  public:
   /// The reader has to outlive it.
   explicit TextureTints(const TextureReader& read) : read_(read) {}
-  /// sRGB. A texture that cannot be read is white.
-  Vec3 of(const Material& m);
+  /// A texture that cannot be read is white.
+  Finish of(const Material& m);
 
  private:
-  // In linear light.
-  Vec3 meanOf(const std::string& path) const;
+  const Vec3& meanLight(const std::string& path);
+  double meanNumber(const std::string& path);
+  /// Empty where it cannot be read.
+  std::vector<uint8_t> rgbaOf(const std::string& path) const;
 
   const TextureReader& read_;
-  /// By path, in linear light.
-  std::map<std::string, Vec3> known_;
+  /// By path.
+  std::map<std::string, Vec3> colors_;
+  std::map<std::string, double> numbers_;
 };
 
 }  // namespace gable

@@ -21,9 +21,9 @@ uint32_t bitsOf(double v) { return std::bit_cast<uint32_t>(static_cast<float>(v)
 float floatOf(uint32_t bits) { return std::bit_cast<float>(bits); }
 
 // Linear light in 16 bits: in eight, dark colours would come out in steps.
-std::array<uint32_t, 2> colorWords(const Vec3& srgb) {
+std::array<uint32_t, 2> colorWords(const Vec3& linear) {
   const auto part = [&](size_t i) {
-    return static_cast<uint32_t>(std::lround(linearOf(srgb[i]) * 65535));
+    return static_cast<uint32_t>(std::lround(std::clamp(linear[i], 0.0, 1.0) * 65535));
   };
   return {part(0) | part(1) << 16, part(2) | 0xffff0000u};
 }
@@ -224,7 +224,7 @@ class FullFiller {
       const uint32_t variant = mesh_.materials->variant(look, uvMask);
       const VertexLayout& layout = mesh_.materials->layout(variant);
       TilePrimitive& primitive = filler.primitive(variant, layout.uvCount);
-      const auto color = colorWords(materialOf(scene, leaf, part.slot).color);
+      const auto color = colorWords(linearOf(materialOf(scene, leaf, part.slot).color));
       for (uint32_t f = 0; f < part.faceCount; ++f) {
         setHeads(l, leaf, mesh, surface, surface.faces[part.firstFace + f], center, color);
         addFace(leaf, mesh, surface, surface.faces[part.firstFace + f], layout, filler, primitive);
@@ -296,7 +296,7 @@ class CoarseFiller {
     for (const CoarsePart& p : model_.parts) {
       work(p.triangleCount);
       known_.clear();
-      const auto color = colorWords(p.color);
+      const auto color = colorWords(p.finish.color);
       for (uint32_t t = 0; t < p.triangleCount; ++t) {
         addTriangle(p, model_.triangles[p.firstTriangle + t], color, primitive);
       }

@@ -59,8 +59,9 @@ void write(ByteWriter& w, const CoarseModel& model) {
   w.value(uint64_t{model.parts.size()});
   for (const CoarsePart& p : model.parts) {
     w.value(p.feature);
-    w.value(p.color);
+    w.value(p.finish);
     w.value(p.area);
+    w.value(uint8_t{p.isPanel});
     writeFrame(w, p.frame);
     w.value(p.box);
     for (const uint32_t v : {p.firstVertex, p.vertexCount, p.firstTriangle, p.triangleCount}) {
@@ -113,8 +114,9 @@ bool read(ByteReader& r, CoarseModel& model) {
   model.parts.resize(r.count(kLeastPart));
   for (CoarsePart& p : model.parts) {
     p.feature = r.value<uint32_t>();
-    p.color = r.value<Vec3>();
+    p.finish = r.value<Finish>();
     p.area = r.value<double>();
+    p.isPanel = r.value<uint8_t>() != 0;
     p.frame = readFrame(r);
     p.box = r.value<Box3>();
     for (uint32_t* v : {&p.firstVertex, &p.vertexCount, &p.firstTriangle, &p.triangleCount}) {

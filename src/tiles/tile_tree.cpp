@@ -37,6 +37,9 @@ constexpr double kMargin = kMostQuantized;
 constexpr double kCoarser = 2;
 constexpr int kMostCoarser = 6;
 
+// Squares that are smaller over what they show are not divided.
+constexpr double kLeastShare = 1.0 / 16;
+
 double toleranceOf(const TileSquare& square) { return square.side / kFineness; }
 
 // What a quarter of a square has come to.
@@ -334,42 +337,60 @@ class Builder {
     return out;
   }
 
+  static Box3 boxOf(const TileContent& content, const TileLeaf& l) {
+    const Scene& scene = *content.scenes[l.scene];
+    const Leaf& leaf = scene.leaves[l.leaf];
+    const Box3 mesh = scene.meshes[leaf.mesh]->bounds();
+    Box3 out;
+    out.include(l.world.origin);
+    return mesh.empty() ? out : boundsAt(mesh, l.world, leaf.scale);
+  }
+
   // Where the leaves of a content belong: features of one tile by their middle, larger ones leaf by
-  // leaf, and a placement as one.
-  std::vector<Vec2> pointsOf(const TileContent& content) const {
+  // leaf, and a placement as one. Their origins would not do: the fronts of a corner share one.
+  static std::vector<Vec2> pointsOf(const TileContent& content, uint64_t most) {
     std::vector<uint64_t> triangles(content.features.size());
     for (const TileLeaf& l : content.leaves) triangles[l.feature] += l.triangles;
+    std::vector<Box3> placed(content.placements.size());
+    for (const TileLeaf& l : content.leaves) {
+      work();
+      if (l.placement != TileLeaf::kNone) placed[l.placement].include(boxOf(content, l));
+    }
     std::vector<Vec2> points;
     points.reserve(content.leaves.size());
     for (const TileLeaf& l : content.leaves) {
       work();
-      if (triangles[l.feature] <= options_.triangles) {
+      if (triangles[l.feature] <= most) {
         points.push_back(content.features[l.feature].middle);
         continue;
       }
-      if (l.placement != TileLeaf::kNone) {
-        const Vec3& p = content.placements[l.placement].world.origin;
-        points.push_back({p.x, p.z});
-        continue;
-      }
-      const Scene& scene = *content.scenes[l.scene];
-      const Box3 box = localBox(scene, scene.leaves[l.leaf]);
-      const Vec3 p = box.empty() ? l.world.origin : l.world.point(box.center());
+      const Vec3 p =
+          (l.placement != TileLeaf::kNone ? placed[l.placement] : boxOf(content, l)).center();
       points.push_back({p.x, p.z});
     }
     return points;
   }
 
+  // Whether quarters of a square would show nearly what it shows: what lies about one point, and
+  // reaches far from it.
+  static bool isSmallFor(const TileSquare& square, const TileContent& content) {
+    Box3 box;
+    for (const TileLeaf& l : content.leaves) box.include(boxOf(content, l));
+    const Vec3 size = box.size();
+    return square.side < kLeastShare * std::max({size.x, size.y, size.z});
+  }
+
   Branch split(TileSquare square, TileContent content, const std::string& name, int depth) {
     Branch out;
     if (content.leaves.empty()) return out;
-    if (content.triangles <= options_.triangles || depth >= kDeepestSquare) {
+    if (content.triangles <= options_.triangles || depth >= kDeepestSquare ||
+        isSmallFor(square, content)) {
       out.state = Branch::State::Open;
       out.name = name;
       out.content = std::move(content);
       return out;
     }
-    const std::vector<Vec2> points = pointsOf(content);
+    const std::vector<Vec2> points = pointsOf(content, options_.triangles);
     Box2 box;
     for (const Vec2 p : points) box.include(p);
     // What reaches beyond the square is divided all the same.

@@ -62,7 +62,7 @@ struct TilePart {
 };
 
 struct TileTreeOptions {
-  /// Of a tile at most; of a coarse one as far as that can be.
+  /// Of a tile at most, but where much stands in one place; of a coarse one as far as that can be.
   uint64_t triangles = 65'536;
   /// Shapes that are derived together; 0: all of a unit.
   size_t batch = 512;

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// Two rectangles of a plane that touch are joined where they nearly fill the one around both. That
+// is done until nothing changes: frames and panes become windows, but windows do not become rows.
+#include "tiles/panels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "base/work.h"
+#include "tiles/plates.h"
+
+namespace gable {
+namespace {
+
+// Directions are equal that differ by less.
+constexpr double kTurn = 1.0 / 1024;
+// What lies so near along the normal is in one front, as a share of the tolerance and in metres:
+// windows in their reveals.
+constexpr double kReveal = 0.5, kLeastReveal = 0.25;
+// What is so near is in one plane and has no gap, as shares of the tolerance.
+constexpr double kFlush = 1.0 / 16;
+// A rectangle is filled by what covers so much of it.
+constexpr double kFilled = 0.9;
+// Looks are those of one thing that differ by less, and of one wall.
+constexpr double kAlike = 0.15, kSame = 0.06;
+// Narrower ones are frames, which take on any neighbour, as a share of the tolerance.
+constexpr double kFrame = 1.0 / 6;
+// What panels may be narrower than the tolerance by, and that of fronts which keep them.
+constexpr double kNarrowest = 0.25, kSeen = 0.5;
+// Steps of the finishs among which that of the wall is found.
+constexpr double kLookSteps = 16;
+// Neighbours that are looked at, and times that all are gone through.
+constexpr size_t kMostTries = 256;
+constexpr int kMostPasses = 8;
+
+// A part that is thin across its plane.
+struct Sheet {
+  size_t part = 0;
+  std::array<int64_t, 3> direction{};
+  Vec3 normal;
+  double offset = 0;
+};
+
+// In the plane of a front.
+struct Rectangle {
+  Box2 box;
+  double near = 0, far = 0;
+  double area = 0;
+  Tint tint;
+  std::vector<size_t> members;
+
+  double width() const { return std::min(box.size().x, box.size().y); }
+  double whole() const { return box.size().x * box.size().y; }
+  double depth() const { return (near + far) / 2; }
+  Finish finish() const { return tint.mean({}); }
+};
+
+Box2 around(Box2 a, const Box2& b) {
+  a.include(b.min);
+  a.include(b.max);
+  return a;
+}
+
+class PanelMaker {
+ public:
+  PanelMaker(const CoarseModel& from, double tolerance)
+      : from_(from), tolerance_(tolerance), flush_(tolerance * kFlush) {}
+
+  Panelled run() {
+    CoarseModel& model = out_.model;
+    model.features = from_.features;
+    model.vertices = from_.vertices;
+    model.triangles = from_.triangles;
+    model.error = from_.error;
+    const std::vector<CoarsePart>& parts = from_.parts;
+    for (size_t begin = 0; begin < parts.size();) {
+      size_t end = begin;
+      while (end < parts.size() && parts[end].feature == parts[begin].feature) ++end;
+      addFeature(begin, end);
+      begin = end;
+    }
+    return std::move(out_);
+  }
+
+ private:
+  void addFeature(size_t begin, size_t end) {
+    fate_.assign(end - begin, Fate::Stays);
+    first_ = begin;
+    panels_.clear();
+    std::vector<Sheet> sheets = sheetsOf(begin, end);
+    const double reach = std::max(tolerance_ * kReveal, kLeastReveal);
+    for (size_t i = 0; i < sheets.size();) {
+      size_t last = i + 1;
+      while (last < sheets.size() && sheets[last].direction == sheets[i].direction &&
+             sheets[last].offset - sheets[last - 1].offset <= reach) {
+        ++last;
+      }
+      if (last - i > 1) addFront(std::span<const Sheet>(sheets).subspan(i, last - i));
+      i = last;
+    }
+    for (size_t i = begin; i < end; ++i) {
+      const Fate fate = fate_[i - begin];
+      if (fate == Fate::Goes) continue;
+      out_.model.parts.push_back(from_.parts[i]);
+      out_.model.parts.back().isPanel = fate == Fate::Panel;
+    }
+    out_.model.parts.insert(out_.model.parts.end(), panels_.begin(), panels_.end());
+  }
+
+  // By direction and place along it.
+  std::vector<Sheet> sheetsOf(size_t begin, size_t end) const {
+    std::vector<Sheet> out;
+    for (size_t i = begin; i < end; ++i) {
+      const CoarsePart& p = from_.parts[i];
+      const Vec3 size = p.box.size();
+      const size_t across = thinnestOf(size);
+      if (!(size[across] <= tolerance_ / 4)) continue;
+      Sheet s;
+      s.part = i;
+      s.normal = axisOf(p.frame, across);
+      for (size_t k = 0; k < 3; ++k) s.direction[k] = std::llround(s.normal[k] / kTurn);
+      if (s.direction < std::array<int64_t, 3>{}) {
+        s.normal = s.normal * -1;
+        for (int64_t& d : s.direction) d = -d;
+      }
+      s.offset = dot(s.normal, p.frame.point(p.box.center()));
+      if (std::isfinite(s.offset) && std::isfinite(faceArea(p.box))) out.push_back(s);
+    }
+    std::stable_sort(out.begin(), out.end(), [](const Sheet& a, const Sheet& b) {
+      return std::tie(a.direction, a.offset) < std::tie(b.direction, b.offset);
+    });
+    return out;
+  }
+
+  void addFront(std::span<const Sheet> sheets) {
+    work(sheets.size());
+    const Finish wall = wallOf(sheets);
+    const Frame frame = frameOf(sheets);
+    std::vector<Rectangle> narrow;
+    double seen = 0, whole = 0;
+    for (const Sheet& s : sheets) {
+      const CoarsePart& p = from_.parts[s.part];
+      const double width = widthOf(p.box);
+      const bool isWall = distanceOf(p.finish, wall) <= kSame;
+      if (width >= tolerance_ && p.triangleCount > 0) {
+        if (isWall) continue;
+        seen += faceArea(p.box);
+        whole += faceArea(p.box);
+      } else if (!isWall || width < tolerance_ * kFrame) {
+        addRectangle(s.part, frame, narrow);
+      }
+    }
+    join(narrow);
+    narrow.erase(std::remove_if(narrow.begin(), narrow.end(),
+                                [&](const Rectangle& r) {
+                                  return r.width() < tolerance_ * kNarrowest ||
+                                         r.area < kFilled * r.whole() ||
+                                         distanceOf(r.finish(), wall) <= kSame;
+                                }),
+                 narrow.end());
+    for (const Rectangle& r : narrow) {
+      whole += r.area;
+      if (r.width() >= tolerance_ * kSeen) seen += r.area;
+    }
+    if (seen < whole / 2) return;
+    for (const Rectangle& r : narrow) addPanel(r, frame);
+  }
+
+  // Of most of a front.
+  Finish wallOf(std::span<const Sheet> sheets) const {
+    std::map<std::array<int64_t, 3>, Tint> finishs;
+    for (const Sheet& s : sheets) {
+      const CoarsePart& p = from_.parts[s.part];
+      std::array<int64_t, 3> key{};
+      for (size_t i = 0; i < 3; ++i) {
+        key[i] = std::llround(std::sqrt(std::max(p.finish.color[i], 0.0)) * kLookSteps);
+      }
+      finishs[key].add(p.finish, faceArea(p.box));
+    }
+    const auto most = std::max_element(
+        finishs.begin(), finishs.end(),
+        [](const auto& a, const auto& b) { return a.second.weight < b.second.weight; });
+    return most->second.mean({});
+  }
+
+  // The axes of the largest part; z is where those without thickness finish.
+  Frame frameOf(std::span<const Sheet> sheets) const {
+    const Sheet* main = &sheets[0];
+    double front = 0;
+    for (const Sheet& s : sheets) {
+      const CoarsePart& p = from_.parts[s.part];
+      if (faceArea(p.box) > faceArea(from_.parts[main->part].box)) main = &s;
+      const size_t across = thinnestOf(p.box.size());
+      if (p.box.size()[across] > 0) continue;
+      front += faceArea(p.box) * dot(s.normal, axisOf(p.frame, across));
+    }
+    const CoarsePart& p = from_.parts[main->part];
+    const Vec3 z = main->normal * (front < 0 ? -1.0 : 1.0);
+    const Vec3 x = axisOf(p.frame, (thinnestOf(p.box.size()) + 1) % 3);
+    return Frame::of(p.frame.point(p.box.center()), x, cross(z, x), z);
+  }
+
+  // Where a part fills a rectangle along the axes.
+  void addRectangle(size_t part, const Frame& frame, std::vector<Rectangle>& out) const {
+    const CoarsePart& p = from_.parts[part];
+    Box3 box;
+    for (const Vec3& c : cornersOf(p)) box.include(frame.toLocal(c));
+    Rectangle r;
+    r.box.include(Vec2{box.min.x, box.min.y});
+    r.box.include(Vec2{box.max.x, box.max.y});
+    r.near = box.min.z;
+    r.far = box.max.z;
+    r.area = p.triangleCount > 0 ? shownOf(p) : faceArea(p.box);
+    if (p.triangleCount > 2 || r.area < kFilled * r.whole()) return;
+    r.tint.add(p.finish, r.area);
+    r.members.push_back(part);
+    out.push_back(std::move(r));
+  }
+
+  double shownOf(const CoarsePart& p) const {
+    double area = 0;
+    for (uint32_t t = 0; t < p.triangleCount; ++t) {
+      const auto& tri = from_.triangles[p.firstTriangle + t];
+      const auto at = [&](size_t k) { return from_.vertices[p.firstVertex + tri[k]]; };
+      area += length(cross(at(1) - at(0), at(2) - at(0))) / 2;
+    }
+    return area;
+  }
+
+  void join(std::vector<Rectangle>& rectangles) const {
+    bool changed = true;
+    for (int pass = 0; changed && pass < kMostPasses; ++pass) {
+      changed = false;
+      std::stable_sort(
+          rectangles.begin(), rectangles.end(), [](const Rectangle& a, const Rectangle& b) {
+            return std::tie(a.box.min.x, a.box.min.y) < std::tie(b.box.min.x, b.box.min.y);
+          });
+      for (size_t i = 0; i < rectangles.size(); ++i) {
+        if (!rectangles[i].members.empty()) changed = takeIn(rectangles, i) || changed;
+      }
+      rectangles.erase(std::remove_if(rectangles.begin(), rectangles.end(),
+                                      [](const Rectangle& r) { return r.members.empty(); }),
+                       rectangles.end());
+    }
+  }
+
+  // Joins one with those to its right; what is taken has no members any more.
+  bool takeIn(std::vector<Rectangle>& rectangles, size_t at) const {
+    Rectangle& r = rectangles[at];
+    bool changed = false;
+    size_t tries = 0;
+    for (size_t i = at + 1; i < rectangles.size() && tries < kMostTries; ++i) {
+      Rectangle& other = rectangles[i];
+      if (other.box.min.x > r.box.max.x + flush_) break;
+      if (other.members.empty()) continue;
+      ++tries;
+      work();
+      if (!canJoin(r, other)) continue;
+      r.box = around(r.box, other.box);
+      r.near = std::min(r.near, other.near);
+      r.far = std::max(r.far, other.far);
+      r.area += other.area;
+      r.tint.add(other.tint);
+      r.members.insert(r.members.end(), other.members.begin(), other.members.end());
+      other.members.clear();
+      changed = true;
+    }
+    return changed;
+  }
+
+  bool canJoin(const Rectangle& a, const Rectangle& b) const {
+    const auto gap = [](double lowA, double highA, double lowB, double highB) {
+      return std::max(lowA, lowB) - std::min(highA, highB);
+    };
+    if (gap(a.box.min.y, a.box.max.y, b.box.min.y, b.box.max.y) > flush_ ||
+        gap(a.near, a.far, b.near, b.far) > flush_) {
+      return false;
+    }
+    const Vec2 size = around(a.box, b.box).size();
+    if (a.area + b.area < kFilled * size.x * size.y) return false;
+    return std::min(a.width(), b.width()) < tolerance_ * kFrame ||
+           distanceOf(a.finish(), b.finish()) <= kAlike;
+  }
+
+  void addPanel(const Rectangle& r, const Frame& frame) {
+    if (r.members.size() == 1 && from_.parts[r.members[0]].triangleCount > 0) {
+      fate_[r.members[0] - first_] = Fate::Panel;
+      return;
+    }
+    for (const size_t i : r.members) fate_[i - first_] = Fate::Goes;
+    CoarsePart p;
+    p.feature = from_.parts[r.members[0]].feature;
+    p.finish = r.finish();
+    p.area = r.whole();
+    p.isPanel = true;
+    p.frame = frame;
+    p.box.include(Vec3{r.box.min.x, r.box.min.y, r.depth()});
+    p.box.include(Vec3{r.box.max.x, r.box.max.y, r.depth()});
+    out_.offset = std::max(out_.offset, (r.far - r.near) / 2);
+    CoarseModel& model = out_.model;
+    p.firstVertex = static_cast<uint32_t>(model.vertices.size());
+    p.firstTriangle = static_cast<uint32_t>(model.triangles.size());
+    p.vertexCount = 4;
+    p.triangleCount = 2;
+    const Vec3 &low = p.box.min, &high = p.box.max;
+    for (const Vec3& v : {low, Vec3{high.x, low.y, low.z}, high, Vec3{low.x, high.y, low.z}}) {
+      model.vertices.push_back(frame.point(v));
+    }
+    model.triangles.push_back({0, 1, 2});
+    model.triangles.push_back({0, 2, 3});
+    panels_.push_back(p);
+  }
+
+  // Of a part of the feature: it stays as it is, is a panel, or goes into one.
+  enum class Fate : uint8_t { Stays, Panel, Goes };
+
+  const CoarseModel& from_;
+  double tolerance_, flush_;
+  Panelled out_;
+  size_t first_ = 0;
+  std::vector<Fate> fate_;
+  std::vector<CoarsePart> panels_;
+};
+
+}  // namespace
+
+Panelled withPanels(const CoarseModel& model, double tolerance) {
+  return PanelMaker(model, tolerance).run();
+}
+
+}  // namespace gable
