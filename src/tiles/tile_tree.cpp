@@ -38,7 +38,7 @@ constexpr double kCoarser = 2;
 constexpr int kMostCoarser = 6;
 
 // Squares that are smaller over what they show are not divided.
-constexpr double kLeastShare = 1.0 / 16;
+constexpr double kLeastShare = 1.0 / 64;
 
 double toleranceOf(const TileSquare& square) { return square.side / kFineness; }
 
