@@ -37,8 +37,10 @@ constexpr double kMargin = kMostQuantized;
 constexpr double kCoarser = 2;
 constexpr int kMostCoarser = 6;
 
-// Squares that are smaller over what they show are not divided.
-constexpr double kLeastShare = 1.0 / 64;
+// Squares that are smaller over what they show are not divided; where they hold four times as much
+// as a tile may, only those that are smaller by far.
+constexpr double kLeastShare = 1.0 / 16, kLeastFullShare = 1.0 / 64;
+constexpr double kFull = 4;
 
 double toleranceOf(const TileSquare& square) { return square.side / kFineness; }
 
@@ -373,11 +375,14 @@ class Builder {
 
   // Whether quarters of a square would show nearly what it shows: what lies about one point, and
   // reaches far from it.
-  static bool isSmallFor(const TileSquare& square, const TileContent& content) {
+  bool isSmallFor(const TileSquare& square, const TileContent& content) const {
+    const double most = kFull * static_cast<double>(options_.triangles);
+    const bool isFull = static_cast<double>(content.triangles) > most;
     Box3 box;
     for (const TileLeaf& l : content.leaves) box.include(boxOf(content, l));
     const Vec3 size = box.size();
-    return square.side < kLeastShare * std::max({size.x, size.y, size.z});
+    return square.side <
+           (isFull ? kLeastFullShare : kLeastShare) * std::max({size.x, size.y, size.z});
   }
 
   Branch split(TileSquare square, TileContent content, const std::string& name, int depth) {
