@@ -30,8 +30,10 @@ if (!hasBrowser()) {
 }
 
 const KEYSTROKES = 24;
+// Of processor time, on a machine of which WORK_MS is true.
 const MOST_MS_A_KEY = 400;
 const MOST_MS_A_KEY_IN_A_TOWN = 150;
+const WORK_MS = 70;
 const shots = process.env.GABLE_SHOTS;
 if (shots) mkdirSync(shots, { recursive: true });
 
@@ -42,6 +44,22 @@ function share() {
   while (performance.now() - began < 400);
   const used = process.cpuUsage(before);
   return (used.user + used.system) / 1000 / (performance.now() - began);
+}
+
+/**
+ * How many times longer than WORK_MS the processor takes for a piece of work that goes through
+ * memory: more than once on a slow machine, and where others fill its caches.
+ */
+function slowness() {
+  const numbers = new Float64Array(1 << 20);
+  for (let i = 0, n = 1; i < numbers.length; ++i) {
+    n = (Math.imul(n, 1664525) + 1013904223) >>> 0;
+    numbers[i] = n;
+  }
+  const before = process.cpuUsage();
+  numbers.sort();
+  const used = process.cpuUsage(before);
+  return Math.max(1, (used.user + used.system) / 1000 / WORK_MS);
 }
 
 /** Holds a time to its promise, unless others use the machine. */
@@ -131,6 +149,7 @@ const figures = {
         })) && undefined;
     });
     const free = share();
+    const slow = slowness();
     const cost = meter(server.pid);
     const first = { server: 0, page: 0, graphics: 0, browser: 0, all: 0 };
     const after = { ...first };
@@ -148,9 +167,9 @@ const figures = {
     console.log(
       `processor milliseconds a keystroke, up to the picture: ${told(first)}; in the 330 ms after it: ${told(after)}`,
     );
-    // Processor time says what the clock of a busy machine does not; others in its caches double
-    // it.
-    assert.ok(first.all < MOST_MS_A_KEY, `${first.all} ms of processor time a keystroke`);
+    // Processor time says what the clock of a busy machine does not.
+    const most = MOST_MS_A_KEY * Math.max(slow, slowness());
+    assert.ok(first.all < most, `${first.all} ms of processor time a keystroke, of ${most}`);
     times.sort((a, b) => a - b);
     const at = (part) => times[Math.min(times.length - 1, Math.floor(times.length * part))];
     if (shots) await page.screenshot({ path: join(shots, 'latency.png') });
@@ -293,9 +312,10 @@ const figures = {
     console.log(
       `town: typing, processor milliseconds a key: ${told(typing)}; under way at ${deriving} of ${letters.length} keys`,
     );
+    const most = MOST_MS_A_KEY_IN_A_TOWN * slowness();
     assert.ok(
-      typing.page < MOST_MS_A_KEY_IN_A_TOWN,
-      `${typing.page} ms of the page's processor time a key`,
+      typing.page < most,
+      `${typing.page} ms of the page's processor time a key, of ${most}`,
     );
     const longest = await page.evaluate(() => window.longest);
     held(
