@@ -25,6 +25,7 @@
 #include "scene/flatten.h"
 #include "tiles/panels.h"
 #include "tiles/plates.h"
+#include "tiles/sheets.h"
 
 namespace gable {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Coarse models: what a place finishs like from far away, made of what the rules made of it.
+// Coarse models: what a place looks like from far away, made of what the rules made of it.
 //
 // A model is a list of parts: a leaf, or a box that stands for many small ones. coarsened() makes a
 // model with a tolerance of a model with a smaller one:
@@ -59,7 +59,7 @@ struct CoarseModel {
   void append(CoarseModel&& other);
 };
 
-/// What a material finishs like from far away.
+/// What a material looks like from far away.
 using FinishOf = std::function<Finish(const Material&)>;
 
 /// The parts of a tile; those narrower than `tolerance` without their triangles.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// What parts of coarse models finish like, and how looks are mixed: by area, as light.
+// What parts of coarse models look like, and how looks are mixed: by area, as light.
 #pragma once
 
 #include <algorithm>

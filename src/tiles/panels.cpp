@@ -10,19 +10,18 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "base/work.h"
-#include "tiles/plates.h"
+#include "tiles/sheets.h"
 
 namespace gable {
 namespace {
 
-// Directions are equal that differ by less.
-constexpr double kTurn = 1.0 / 1024;
 // What lies so near along the normal is in one front, as a share of the tolerance and in metres:
 // windows in their reveals.
 constexpr double kReveal = 0.5, kLeastReveal = 0.25;
@@ -36,19 +35,11 @@ constexpr double kAlike = 0.15, kSame = 0.06;
 constexpr double kFrame = 1.0 / 6;
 // What panels may be narrower than the tolerance by, and that of fronts which keep them.
 constexpr double kNarrowest = 0.25, kSeen = 0.5;
-// Steps of the finishs among which that of the wall is found.
+// Steps of the looks among which that of the wall is found.
 constexpr double kLookSteps = 16;
 // Neighbours that are looked at, and times that all are gone through.
 constexpr size_t kMostTries = 256;
 constexpr int kMostPasses = 8;
-
-// A part that is thin across its plane.
-struct Sheet {
-  size_t part = 0;
-  std::array<int64_t, 3> direction{};
-  Vec3 normal;
-  double offset = 0;
-};
 
 // In the plane of a front.
 struct Rectangle {
@@ -120,24 +111,10 @@ class PanelMaker {
   std::vector<Sheet> sheetsOf(size_t begin, size_t end) const {
     std::vector<Sheet> out;
     for (size_t i = begin; i < end; ++i) {
-      const CoarsePart& p = from_.parts[i];
-      const Vec3 size = p.box.size();
-      const size_t across = thinnestOf(size);
-      if (!(size[across] <= tolerance_ / 4)) continue;
-      Sheet s;
-      s.part = i;
-      s.normal = axisOf(p.frame, across);
-      for (size_t k = 0; k < 3; ++k) s.direction[k] = std::llround(s.normal[k] / kTurn);
-      if (s.direction < std::array<int64_t, 3>{}) {
-        s.normal = s.normal * -1;
-        for (int64_t& d : s.direction) d = -d;
-      }
-      s.offset = dot(s.normal, p.frame.point(p.box.center()));
-      if (std::isfinite(s.offset) && std::isfinite(faceArea(p.box))) out.push_back(s);
+      const std::optional<Sheet> s = sheetOf(from_, i, tolerance_ / 4);
+      if (s && std::isfinite(faceArea(from_.parts[i].box))) out.push_back(*s);
     }
-    std::stable_sort(out.begin(), out.end(), [](const Sheet& a, const Sheet& b) {
-      return std::tie(a.direction, a.offset) < std::tie(b.direction, b.offset);
-    });
+    std::stable_sort(out.begin(), out.end(), liesBefore);
     return out;
   }
 
@@ -177,36 +154,30 @@ class PanelMaker {
 
   // Of most of a front.
   Finish wallOf(std::span<const Sheet> sheets) const {
-    std::map<std::array<int64_t, 3>, Tint> finishs;
+    std::map<std::array<int64_t, 3>, Tint> looks;
     for (const Sheet& s : sheets) {
       const CoarsePart& p = from_.parts[s.part];
       std::array<int64_t, 3> key{};
       for (size_t i = 0; i < 3; ++i) {
         key[i] = std::llround(std::sqrt(std::max(p.finish.color[i], 0.0)) * kLookSteps);
       }
-      finishs[key].add(p.finish, faceArea(p.box));
+      looks[key].add(p.finish, faceArea(p.box));
     }
     const auto most = std::max_element(
-        finishs.begin(), finishs.end(),
+        looks.begin(), looks.end(),
         [](const auto& a, const auto& b) { return a.second.weight < b.second.weight; });
     return most->second.mean({});
   }
 
-  // The axes of the largest part; z is where those without thickness finish.
+  // Of the largest part.
   Frame frameOf(std::span<const Sheet> sheets) const {
     const Sheet* main = &sheets[0];
-    double front = 0;
+    double facing = 0;
     for (const Sheet& s : sheets) {
-      const CoarsePart& p = from_.parts[s.part];
-      if (faceArea(p.box) > faceArea(from_.parts[main->part].box)) main = &s;
-      const size_t across = thinnestOf(p.box.size());
-      if (p.box.size()[across] > 0) continue;
-      front += faceArea(p.box) * dot(s.normal, axisOf(p.frame, across));
+      if (faceArea(from_.parts[s.part].box) > faceArea(from_.parts[main->part].box)) main = &s;
+      facing += facingOf(from_, s);
     }
-    const CoarsePart& p = from_.parts[main->part];
-    const Vec3 z = main->normal * (front < 0 ? -1.0 : 1.0);
-    const Vec3 x = axisOf(p.frame, (thinnestOf(p.box.size()) + 1) % 3);
-    return Frame::of(p.frame.point(p.box.center()), x, cross(z, x), z);
+    return gable::frameOf(from_, *main, facing);
   }
 
   // Where a part fills a rectangle along the axes.
@@ -219,21 +190,11 @@ class PanelMaker {
     r.box.include(Vec2{box.max.x, box.max.y});
     r.near = box.min.z;
     r.far = box.max.z;
-    r.area = p.triangleCount > 0 ? shownOf(p) : faceArea(p.box);
+    r.area = p.triangleCount > 0 ? shownOf(from_, p) : faceArea(p.box);
     if (p.triangleCount > 2 || r.area < kFilled * r.whole()) return;
     r.tint.add(p.finish, r.area);
     r.members.push_back(part);
     out.push_back(std::move(r));
-  }
-
-  double shownOf(const CoarsePart& p) const {
-    double area = 0;
-    for (uint32_t t = 0; t < p.triangleCount; ++t) {
-      const auto& tri = from_.triangles[p.firstTriangle + t];
-      const auto at = [&](size_t k) { return from_.vertices[p.firstVertex + tri[k]]; };
-      area += length(cross(at(1) - at(0), at(2) - at(0))) / 2;
-    }
-    return area;
   }
 
   void join(std::vector<Rectangle>& rectangles) const {

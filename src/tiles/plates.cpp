@@ -9,24 +9,21 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <tuple>
+#include <optional>
 #include <utility>
 
 #include "base/work.h"
+#include "tiles/sheets.h"
 
 namespace gable {
 namespace {
 
 // Longer parts would fill too many cells.
 constexpr double kMostCells = 1024;
-// Directions are equal that differ by less.
-constexpr double kTurn = 1.0 / 1024;
 // A cell is full that is covered so far, and needs no plate where large parts cover so much.
 constexpr double kFull = 0.5, kShown = 7.0 / 8;
 // Of the colours of a plate, each of three.
 constexpr double kAlike = 0.12;
-// Rules can make larger ones.
-constexpr double kMostArea = 1e12;
 // Cells of a plate along each of its sides: what turns out to be shown was looked through in vain.
 constexpr int64_t kLongest = 128;
 // A large part is brought before a plate that would hide so much of it.
@@ -37,17 +34,10 @@ constexpr double kNeeded = 0.25;
 // of the tolerance, and metres.
 constexpr double kReveal = 0.25, kLeastReveal = 0.25;
 
-// A part that is thin across its plane.
-struct Sheet {
-  size_t part = 0;
+struct WallSheet : Sheet {
   /// Into the narrow or the large parts.
   size_t number = 0;
   bool isLarge = false;
-  /// Of the axis across it; the sign is such that both sides of a wall have one plane.
-  std::array<int64_t, 3> direction{};
-  Vec3 normal;
-  /// Where the plane lies along the normal.
-  double offset = 0;
 };
 
 // What a cell needs: nothing, as it is not full; nothing, as large parts show it; a plate.
@@ -69,7 +59,7 @@ using Cell = std::pair<int64_t, int64_t>;
 // The sheets of one plane.
 class PlaneGrid {
  public:
-  PlaneGrid(const CoarseModel& model, std::span<const Sheet> sheets, double tolerance)
+  PlaneGrid(const CoarseModel& model, std::span<const WallSheet> sheets, double tolerance)
       : model_(model), sheets_(sheets), tolerance_(tolerance) {}
 
   void run(Plates& out) {
@@ -78,7 +68,7 @@ class PlaneGrid {
     chooseFrame();
     measure();
     if (!isWide()) return;
-    for (const Sheet& s : sheets_) {
+    for (const WallSheet& s : sheets_) {
       if (isInWall(s)) cover(s);
     }
     judgeCells();
@@ -88,10 +78,10 @@ class PlaneGrid {
 
  private:
   // The largest narrow one, whose axes the grid has; null where all are large parts.
-  const Sheet* largestNarrow() const {
-    const Sheet* out = nullptr;
+  const WallSheet* largestNarrow() const {
+    const WallSheet* out = nullptr;
     double most = -1;
-    for (const Sheet& s : sheets_) {
+    for (const WallSheet& s : sheets_) {
       const double area = faceArea(partOf(s).box);
       if (s.isLarge || !(area > most)) continue;
       most = area;
@@ -100,24 +90,13 @@ class PlaneGrid {
     return out;
   }
 
-  const CoarsePart& partOf(const Sheet& s) const { return model_.parts[s.part]; }
+  const CoarsePart& partOf(const WallSheet& s) const { return model_.parts[s.part]; }
 
-  // The axes of the largest narrow part. Faces know where they look by the z of their scope, so
-  // those without thickness say where the front is.
+  // That of the largest narrow part.
   void chooseFrame() {
-    const CoarsePart& p = partOf(*main_);
-    const size_t across = thinnestOf(p.box.size());
-    double front = 0;
-    for (const Sheet& s : sheets_) {
-      const Box3& box = partOf(s).box;
-      const Vec3 size = box.size();
-      if (size[thinnestOf(size)] > 0) continue;
-      front += std::min(faceArea(box), kMostArea) *
-               dot(s.normal, axisOf(partOf(s).frame, thinnestOf(size)));
-    }
-    Vec3 z = main_->normal, x = axisOf(p.frame, (across + 1) % 3);
-    if (front < 0) z = z * -1;
-    frame_ = Frame::of(p.frame.point(p.box.center()), x, cross(z, x), z);
+    double facing = 0;
+    for (const WallSheet& s : sheets_) facing += facingOf(model_, s);
+    frame_ = frameOf(model_, *main_, facing);
   }
 
   Box3 inPlane(const CoarsePart& p) const {
@@ -130,13 +109,13 @@ class PlaneGrid {
   void measure() {
     double weight = 0;
     std::vector<std::pair<double, double>> depths;
-    for (const Sheet& s : sheets_) {
+    for (const WallSheet& s : sheets_) {
       if (s.isLarge) continue;
       const CoarsePart& p = partOf(s);
       const Box3 box = inPlane(p);
       reach_.include(box.min);
       reach_.include(box.max);
-      const double area = std::min(faceArea(p.box), kMostArea);
+      const double area = weightOf(p.box);
       weight += area;
       depths.emplace_back(box.center().z, area);
     }
@@ -158,7 +137,7 @@ class PlaneGrid {
     return weighted.back().first;
   }
 
-  bool isInWall(const Sheet& s) const {
+  bool isInWall(const WallSheet& s) const {
     if (!s.isLarge) return true;
     const double away = inPlane(partOf(s)).center().z - depth_;
     return std::abs(away) <= kReveal * tolerance_ + kLeastReveal;
@@ -169,7 +148,7 @@ class PlaneGrid {
     return std::isfinite(size.x + size.y) && std::min(size.x, size.y) >= tolerance_;
   }
 
-  void cover(const Sheet& s) {
+  void cover(const WallSheet& s) {
     forEachCell(s, [&](const Cell& at, double share) {
       Cover& cell = cells_[at];
       (s.isLarge ? cell.large : cell.narrow) += share;
@@ -179,7 +158,7 @@ class PlaneGrid {
 
   // The cells under a sheet, each with the share that it covers.
   template <class Visit>
-  void forEachCell(const Sheet& s, const Visit& visit) const {
+  void forEachCell(const WallSheet& s, const Visit& visit) const {
     const CoarsePart& p = partOf(s);
     const Box3 box = inPlane(p);
     const Vec3 size = box.size();
@@ -187,7 +166,7 @@ class PlaneGrid {
     if (!(whole > 0)) return;
     // What does not fill its rectangle, a polygon or what is turned, covers the same share of it
     // everywhere.
-    const double filled = std::min(1.0, (s.isLarge ? shownOf(p) : faceArea(p.box)) / whole);
+    const double filled = std::min(1.0, (s.isLarge ? shownOf(model_, p) : faceArea(p.box)) / whole);
     std::array<double, 2> from{}, to{};
     for (size_t i = 0; i < 2; ++i) {
       from[i] = std::max((box.min[i] - reach_.min[i]) / side_[i], 0.0);
@@ -202,16 +181,6 @@ class PlaneGrid {
         visit(Cell{static_cast<int64_t>(y), static_cast<int64_t>(x)}, filled * wide * high);
       }
     }
-  }
-
-  double shownOf(const CoarsePart& p) const {
-    double area = 0;
-    for (uint32_t t = 0; t < p.triangleCount; ++t) {
-      const auto& tri = model_.triangles[p.firstTriangle + t];
-      const auto at = [&](size_t k) { return model_.vertices[p.firstVertex + tri[k]]; };
-      area += length(cross(at(1) - at(0), at(2) - at(0))) / 2;
-    }
-    return area;
   }
 
   static Kind kindOf(const Cover& c) {
@@ -316,7 +285,7 @@ class PlaneGrid {
 
   void emit(Plates& out) {
     double offset = 0;
-    for (const Sheet& s : sheets_) {
+    for (const WallSheet& s : sheets_) {
       if (s.isLarge) continue;
       const Box3 box = inPlane(partOf(s));
       if (!isOnPlate(box)) continue;
@@ -329,9 +298,9 @@ class PlaneGrid {
 
   // The large parts of which plates would hide much: windows in their reveals. Of others a plate
   // takes on the colour of what it hides.
-  std::vector<const Sheet*> hiddenParts() {
-    std::vector<const Sheet*> out;
-    for (const Sheet& s : sheets_) {
+  std::vector<const WallSheet*> hiddenParts() {
+    std::vector<const WallSheet*> out;
+    for (const WallSheet& s : sheets_) {
       if (!s.isLarge || !isInWall(s)) continue;
       double whole = 0, hidden = 0;
       std::vector<std::pair<Cell, double>> cells;
@@ -351,10 +320,10 @@ class PlaneGrid {
   }
 
   // To just before the plates, in the order in which they lie.
-  void bringForward(const std::vector<const Sheet*>& parts, Plates& out) const {
+  void bringForward(const std::vector<const WallSheet*>& parts, Plates& out) const {
     const double gap = tolerance_ / 64, most = depth_ + 2 * gap;
     std::vector<double> depths;
-    for (const Sheet* s : parts) depths.push_back(inPlane(partOf(*s)).min.z);
+    for (const WallSheet* s : parts) depths.push_back(inPlane(partOf(*s)).min.z);
     double low = most, high = -std::numeric_limits<double>::infinity();
     for (const double z : depths) {
       low = std::min(low, z);
@@ -387,9 +356,9 @@ class PlaneGrid {
   }
 
   const CoarseModel& model_;
-  std::span<const Sheet> sheets_;
+  std::span<const WallSheet> sheets_;
   double tolerance_;
-  const Sheet* main_ = nullptr;
+  const WallSheet* main_ = nullptr;
   Frame frame_;
   Box3 reach_;
   double depth_ = 0;
@@ -404,35 +373,19 @@ class SheetFinder {
   SheetFinder(const CoarseModel& model, double tolerance) : model_(model), tolerance_(tolerance) {}
 
   void add(size_t part, size_t number, bool isLarge) {
-    const CoarsePart& p = model_.parts[part];
-    const Vec3 size = p.box.size();
-    const size_t across = thinnestOf(size);
-    if (!(size[across] <= tolerance_)) return;
-    Sheet s;
-    s.part = part;
-    s.number = number;
-    s.isLarge = isLarge;
-    s.normal = axisOf(p.frame, across);
-    for (size_t i = 0; i < 3; ++i) s.direction[i] = std::llround(s.normal[i] / kTurn);
-    if (s.direction < std::array<int64_t, 3>{}) {
-      s.normal = s.normal * -1;
-      for (int64_t& d : s.direction) d = -d;
-    }
-    s.offset = dot(s.normal, p.frame.point(p.box.center()));
-    if (std::isfinite(s.offset)) sheets_.push_back(s);
+    const std::optional<Sheet> s = sheetOf(model_, part, tolerance_);
+    if (s) sheets_.push_back({*s, number, isLarge});
   }
 
   // Sheets of equal directions around the offsets where most of the narrow ones lie, within the
   // tolerance to both sides.
   template <class Run>
   void forEachPlane(const Run& run) {
-    std::stable_sort(sheets_.begin(), sheets_.end(), [](const Sheet& a, const Sheet& b) {
-      return std::tie(a.direction, a.offset) < std::tie(b.direction, b.offset);
-    });
+    std::stable_sort(sheets_.begin(), sheets_.end(), liesBefore);
     for (size_t i = 0; i < sheets_.size();) {
       size_t end = i + 1;
       while (end < sheets_.size() && sheets_[end].direction == sheets_[i].direction) ++end;
-      divide(std::span<const Sheet>(sheets_).subspan(i, end - i), run);
+      divide(std::span<const WallSheet>(sheets_).subspan(i, end - i), run);
       i = end;
     }
   }
@@ -440,7 +393,7 @@ class SheetFinder {
  private:
   // Sheets of one direction, by offset.
   template <class Run>
-  void divide(std::span<const Sheet> sheets, const Run& run) const {
+  void divide(std::span<const WallSheet> sheets, const Run& run) const {
     const std::vector<double> mass = massesOf(sheets);
     std::vector<size_t> order(sheets.size());
     std::iota(order.begin(), order.end(), size_t{0});
@@ -462,10 +415,10 @@ class SheetFinder {
   }
 
   // By sheet: the square metres of narrow ones in its plane, and a little before and behind it.
-  std::vector<double> massesOf(std::span<const Sheet> sheets) const {
+  std::vector<double> massesOf(std::span<const WallSheet> sheets) const {
     std::vector<double> before(sheets.size() + 1, 0);
     for (size_t i = 0; i < sheets.size(); ++i) {
-      const double area = std::min(faceArea(model_.parts[sheets[i].part].box), kMostArea);
+      const double area = weightOf(model_.parts[sheets[i].part].box);
       before[i + 1] = before[i] + (sheets[i].isLarge ? 0 : area);
     }
     std::vector<double> out(sheets.size());
@@ -481,35 +434,10 @@ class SheetFinder {
 
   const CoarseModel& model_;
   double tolerance_;
-  std::vector<Sheet> sheets_;
+  std::vector<WallSheet> sheets_;
 };
 
 }  // namespace
-
-size_t thinnestOf(const Vec3& size) {
-  const size_t least = size.x <= size.y ? 0 : 1;
-  return size[least] <= size.z ? least : 2;
-}
-
-double faceArea(const Box3& box) {
-  const Vec3 s = box.size();
-  return std::max({s.x * s.y, s.y * s.z, s.x * s.z});
-}
-
-Vec3 axisOf(const Frame& frame, size_t axis) {
-  Vec3 unit;
-  unit[axis] = 1;
-  return frame.direction(unit);
-}
-
-std::array<Vec3, 8> cornersOf(const CoarsePart& p) {
-  std::array<Vec3, 8> out;
-  for (size_t i = 0; i < 8; ++i) {
-    out[i] = p.frame.point({i & 1 ? p.box.max.x : p.box.min.x, i & 2 ? p.box.max.y : p.box.min.y,
-                            i & 4 ? p.box.max.z : p.box.min.z});
-  }
-  return out;
-}
 
 Plates platesOf(const CoarseModel& model, std::span<const size_t> narrow,
                 std::span<const size_t> large, double tolerance) {
@@ -519,7 +447,7 @@ Plates platesOf(const CoarseModel& model, std::span<const size_t> narrow,
   SheetFinder finder(model, tolerance);
   for (size_t i = 0; i < narrow.size(); ++i) finder.add(narrow[i], i, false);
   for (size_t i = 0; i < large.size(); ++i) finder.add(large[i], i, true);
-  finder.forEachPlane([&](std::span<const Sheet> sheets) {
+  finder.forEachPlane([&](std::span<const WallSheet> sheets) {
     work(sheets.size());
     PlaneGrid(model, sheets, tolerance).run(out);
   });

@@ -11,7 +11,6 @@
 // model simplification, 2003) for planes that are known.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -19,18 +18,6 @@
 #include "tiles/coarse.h"
 
 namespace gable {
-
-/// The axis along which a box is thinnest, the first of equal ones.
-size_t thinnestOf(const Vec3& size);
-
-/// Of the largest side, in square metres.
-double faceArea(const Box3& box);
-
-/// A unit axis of a frame, in the world.
-Vec3 axisOf(const Frame& frame, size_t axis);
-
-/// Of the box of a part, in the world.
-std::array<Vec3, 8> cornersOf(const CoarsePart& p);
 
 struct Plate {
   /// A rectangle: a box without thickness across its z, which points where its parts look. It
