@@ -11,6 +11,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <map>
 #include <utility>
 
 #include "base/bytes.h"
@@ -37,10 +38,10 @@ constexpr double kMargin = kMostQuantized;
 constexpr double kCoarser = 2;
 constexpr int kMostCoarser = 6;
 
-// Squares that are smaller over what they show are not divided; where they hold four times as much
+// Squares that are smaller over what they show are not divided; where they hold half as much again
 // as a tile may, only those that are smaller by far.
 constexpr double kLeastShare = 1.0 / 16, kLeastFullShare = 1.0 / 64;
-constexpr double kFull = 4;
+constexpr double kFull = 1.5;
 
 double toleranceOf(const TileSquare& square) { return square.side / kFineness; }
 
@@ -339,35 +340,44 @@ class Builder {
     return out;
   }
 
-  static Box3 boxOf(const TileContent& content, const TileLeaf& l) {
-    const Scene& scene = *content.scenes[l.scene];
-    const Leaf& leaf = scene.leaves[l.leaf];
-    const Box3 mesh = scene.meshes[leaf.mesh]->bounds();
-    Box3 out;
-    out.include(l.world.origin);
-    return mesh.empty() ? out : boundsAt(mesh, l.world, leaf.scale);
+  // By leaf, in the world. A box of a mesh is found once: it costs as much as its vertices.
+  static std::vector<Box3> boxesOf(const TileContent& content) {
+    std::map<const Mesh*, Box3> meshes;
+    std::vector<Box3> out(content.leaves.size());
+    for (size_t i = 0; i < out.size(); ++i) {
+      work();
+      const TileLeaf& l = content.leaves[i];
+      const Scene& scene = *content.scenes[l.scene];
+      const Leaf& leaf = scene.leaves[l.leaf];
+      const Mesh* mesh = scene.meshes[leaf.mesh].get();
+      const auto [at, isNew] = meshes.try_emplace(mesh);
+      if (isNew) at->second = mesh->bounds();
+      out[i].include(l.world.origin);
+      if (!at->second.empty()) out[i] = boundsAt(at->second, l.world, leaf.scale);
+    }
+    return out;
   }
 
   // Where the leaves of a content belong: features of one tile by their middle, larger ones leaf by
   // leaf, and a placement as one. Their origins would not do: the fronts of a corner share one.
-  static std::vector<Vec2> pointsOf(const TileContent& content, uint64_t most) {
+  std::vector<Vec2> pointsOf(const TileContent& content, const std::vector<Box3>& boxes) const {
     std::vector<uint64_t> triangles(content.features.size());
     for (const TileLeaf& l : content.leaves) triangles[l.feature] += l.triangles;
     std::vector<Box3> placed(content.placements.size());
-    for (const TileLeaf& l : content.leaves) {
-      work();
-      if (l.placement != TileLeaf::kNone) placed[l.placement].include(boxOf(content, l));
+    for (size_t i = 0; i < boxes.size(); ++i) {
+      const uint32_t placement = content.leaves[i].placement;
+      if (placement != TileLeaf::kNone) placed[placement].include(boxes[i]);
     }
     std::vector<Vec2> points;
-    points.reserve(content.leaves.size());
-    for (const TileLeaf& l : content.leaves) {
+    points.reserve(boxes.size());
+    for (size_t i = 0; i < boxes.size(); ++i) {
       work();
-      if (triangles[l.feature] <= most) {
+      const TileLeaf& l = content.leaves[i];
+      if (triangles[l.feature] <= options_.triangles) {
         points.push_back(content.features[l.feature].middle);
         continue;
       }
-      const Vec3 p =
-          (l.placement != TileLeaf::kNone ? placed[l.placement] : boxOf(content, l)).center();
+      const Vec3 p = (l.placement != TileLeaf::kNone ? placed[l.placement] : boxes[i]).center();
       points.push_back({p.x, p.z});
     }
     return points;
@@ -375,27 +385,34 @@ class Builder {
 
   // Whether quarters of a square would show nearly what it shows: what lies about one point, and
   // reaches far from it.
-  bool isSmallFor(const TileSquare& square, const TileContent& content) const {
+  bool isSmallFor(const TileSquare& square, const TileContent& content,
+                  const std::vector<Box3>& boxes) const {
     const double most = kFull * static_cast<double>(options_.triangles);
     const bool isFull = static_cast<double>(content.triangles) > most;
     Box3 box;
-    for (const TileLeaf& l : content.leaves) box.include(boxOf(content, l));
+    for (const Box3& b : boxes) box.include(b);
     const Vec3 size = box.size();
     return square.side <
            (isFull ? kLeastFullShare : kLeastShare) * std::max({size.x, size.y, size.z});
   }
 
-  Branch split(TileSquare square, TileContent content, const std::string& name, int depth) {
+  static Branch open(TileContent content, const std::string& name) {
     Branch out;
-    if (content.leaves.empty()) return out;
-    if (content.triangles <= options_.triangles || depth >= kDeepestSquare ||
-        isSmallFor(square, content)) {
-      out.state = Branch::State::Open;
-      out.name = name;
-      out.content = std::move(content);
-      return out;
+    out.state = Branch::State::Open;
+    out.name = name;
+    out.content = std::move(content);
+    return out;
+  }
+
+  Branch split(TileSquare square, TileContent content, const std::string& name, int depth) {
+    if (content.leaves.empty()) return {};
+    if (content.triangles <= options_.triangles || depth >= kDeepestSquare) {
+      return open(std::move(content), name);
     }
-    const std::vector<Vec2> points = pointsOf(content, options_.triangles);
+    std::vector<Box3> boxes = boxesOf(content);
+    if (isSmallFor(square, content, boxes)) return open(std::move(content), name);
+    const std::vector<Vec2> points = pointsOf(content, boxes);
+    boxes = {};
     Box2 box;
     for (const Vec2 p : points) box.include(p);
     // What reaches beyond the square is divided all the same.
