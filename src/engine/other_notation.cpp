@@ -53,7 +53,7 @@ std::optional<Error> asOtherNotation(const std::string& path, const Dialect* rea
   // another one without a mistake, since some notations forgive much; .cga where the mistakes are
   // few, since a grammar's few signs are slips of CGA as well.
   const bool isGrammar = read && dialectOfPath(path);
-  const bool isCga = !read && path.ends_with(".cga") && errors < kManyForItsName;
+  if (!read && path.ends_with(".cga") && errors < kManyForItsName) return std::nullopt;
   std::vector<const Dialect*> others(dialects().begin(), dialects().end());
   others.push_back(nullptr);
   const Dialect* nearest = read;
@@ -61,7 +61,7 @@ std::optional<Error> asOtherNotation(const std::string& path, const Dialect* rea
   for (const Dialect* d : others) {
     if (d == read) continue;
     const std::optional<Mistakes> its = mistakesAs(d, sources, file, loader);
-    if (!its || its->errors >= least || isCga) continue;
+    if (!its || its->errors >= least) continue;
     if (isGrammar && its->errors + its->warnings > 0) continue;
     nearest = d;
     least = its->errors;
