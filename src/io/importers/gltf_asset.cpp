@@ -125,13 +125,16 @@ int GltfMeshes::texcoordFor(size_t material, int set) const {
   return wanted;
 }
 
+// A primitive without a material has one of its own.
+const Material& GltfMeshes::materialOf(size_t material) const {
+  static const Material kPlain;
+  return material < materials_.size() ? materials_[material].material : kPlain;
+}
+
 uint16_t GltfMeshes::slotOf(size_t material) {
-  const size_t known = std::min(material, materials_.size());
   if (slots_.empty()) slots_.assign(materials_.size() + 1, 0);
-  uint32_t& slot = slots_[known];
-  if (slot == 0) {
-    slot = newSlot(known < materials_.size() ? materials_[known].material : Material{}) + 1u;
-  }
+  uint32_t& slot = slots_[std::min(material, materials_.size())];
+  if (slot == 0) slot = newSlot(materialOf(material)) + 1u;
   return static_cast<uint16_t>(slot - 1);
 }
 
@@ -145,24 +148,23 @@ uint16_t GltfMeshes::newSlot(const Material& m) {
 }
 
 // A face has one colour: the mean of its vertices'.
-uint16_t GltfMeshes::slotOf(size_t material, const uint32_t (&vertices)[3]) {
-  if (colors_.empty()) return slotOf(material);
+uint16_t GltfMeshes::coloredSlotOf(size_t material, const uint32_t (&vertices)[3]) {
   std::array<double, 4> light{};
   for (const uint32_t v : vertices) {
     for (size_t c = 0; c < 4; ++c) light[c] += colors_[4 * v + c] / 3;
   }
-  const size_t known = std::min(material, materials_.size());
-  const Material* of = known < materials_.size() ? &materials_[known].material : nullptr;
-  if (of && of->opacityMode == OpacityMode::Opaque) light[3] = 1;
+  const Material& plain = materialOf(material);
+  if (material < materials_.size() && plain.opacityMode == OpacityMode::Opaque) light[3] = 1;
   std::array<uint8_t, 4> bytes{};
   const int step = coloredSlots_.size() < kExactColors ? 1 : 51;
   for (size_t c = 0; c < 4; ++c) {
     const double part = c < 3 ? srgbOf(light[c]) : (light[c] >= 0 ? std::min(light[c], 1.0) : 0);
     bytes[c] = static_cast<uint8_t>(std::lround(part * 255 / step) * step);
   }
-  const auto [at, isNew] = coloredSlots_.try_emplace({known, bytes});
+  const auto [at, isNew] =
+      coloredSlots_.try_emplace({std::min(material, materials_.size()), bytes});
   if (isNew) {
-    Material m = of ? *of : Material{};
+    Material m = plain;
     const auto tinted = [&](double own, size_t c) {
       return srgbOf(linearOf(own) * linearOf(bytes[c] / 255.0));
     };
@@ -187,7 +189,7 @@ void GltfMeshes::addTriangles(const JsonValue& primitive, size_t material, const
     triangle_.assign({numbers_[v[0]], numbers_[v[1]], numbers_[v[2]]});
     if (!filter_.accept(triangle_)) continue;
     MeshBuilder& b = filter_.builder();
-    b.beginFace(slotOf(material, v));
+    b.beginFace(colors_.empty() ? slotOf(material) : coloredSlotOf(material, v));
     b.beginLoop();
     for (const uint32_t vertex : v) {
       const uint32_t c = b.addCorner(filter_.position(numbers_[vertex]));

@@ -43,8 +43,9 @@ class GltfMeshes {
   void readColors(const JsonValue& attributes, size_t count);
   void place(const Affine& world);
   int texcoordFor(size_t material, int set) const;
+  const Material& materialOf(size_t material) const;
   uint16_t slotOf(size_t material);
-  uint16_t slotOf(size_t material, const uint32_t (&vertices)[3]);
+  uint16_t coloredSlotOf(size_t material, const uint32_t (&vertices)[3]);
   uint16_t newSlot(const Material& m);
   void addTriangles(const JsonValue& primitive, size_t material, const Affine& world,
                     uint32_t group);
