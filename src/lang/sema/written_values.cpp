@@ -5,10 +5,10 @@
 // They are known once constants are folded, so this is a pass of its own over the resolved calls.
 
 #include <algorithm>
-#include <initializer_list>
 
 #include "base/number.h"
 #include "lang/sema/analysis.h"
+#include "lang/sema/fractions.h"
 
 namespace gable::lang {
 
@@ -22,35 +22,6 @@ std::string mendedText(const ParamSpec& param, std::string_view text) {
     for (const char c : text) full.append(c == '#' ? 1 : 2, c);
   }
   return !full.empty() && param.form->holds(full) ? full : std::string();
-}
-
-// What goes from 0 to 1, by operation or function: shares, and components of colours. A number
-// beyond is taken as 0 or 1.
-struct Fractions {
-  std::string_view callee;
-  std::initializer_list<std::string_view> parameters;
-};
-const Fractions kFractions[] = {
-    {"color", {"red", "green", "blue", "opacity"}},
-    {"colorHSVOToHex", {"saturation", "value", "opacity"}},
-    {"colorHSVToHex", {"saturation", "value"}},
-    {"colorRGBOToHex", {"red", "green", "blue", "opacity"}},
-    {"colorRGBToHex", {"red", "green", "blue"}},
-    {"colorRamp", {"value"}},
-    {"p", {"probability"}},
-    {"set",
-     {"material.ambient.b", "material.ambient.g", "material.ambient.r", "material.color.a",
-      "material.color.b", "material.color.g", "material.color.r", "material.metallic",
-      "material.opacity", "material.opacitymap.cutoff", "material.reflectivity",
-      "material.roughness", "material.specular.b", "material.specular.g", "material.specular.r"}},
-};
-
-bool isFraction(std::string_view callee, std::string_view parameter) {
-  for (const Fractions& f : kFractions) {
-    if (f.callee != callee) continue;
-    return std::find(f.parameters.begin(), f.parameters.end(), parameter) != f.parameters.end();
-  }
-  return false;
 }
 
 constexpr double kParts = 255;
