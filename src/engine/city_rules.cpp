@@ -138,7 +138,7 @@ void tellAttributes(const Shapes::Impl& shapes, const Program& program, Diagnost
 }  // namespace
 
 DiagnosticList cityRuleNotes(const Shapes::Impl& shapes, const Rules::Impl& rules) {
-  if (!shapes.ofMap) return {};
+  if (!shapes.ofMap || !shapes.isWhole) return {};
   const Program& program = rules.program;
   std::map<std::string, size_t> missing = missingRules(shapes, program);
   const std::string start = startOf(program);

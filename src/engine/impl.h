@@ -81,6 +81,8 @@ struct Shapes::Impl {
   std::shared_ptr<const TerrainSurface> terrain;
   /// Their properties are words of the map, which nobody has written for these rules.
   bool ofMap = false;
+  /// Not some of others, of which more can be said together.
+  bool isWhole = true;
 };
 
 struct Model::Impl {

@@ -338,6 +338,8 @@ Shapes Shapes::only(const std::vector<size_t>& indices) const {
     impl->textures = impl_->textures;
     impl->geo = impl_->geo;
     impl->terrain = impl_->terrain;
+    impl->ofMap = impl_->ofMap;
+    impl->isWhole = false;
     for (const size_t i : indices) {
       if (i >= impl_->footprints.size()) continue;
       ShapeFootprint f = impl_->footprints[i];

@@ -172,6 +172,8 @@ class JobRunner {
     const auto impl = std::make_shared<Shapes::Impl>();
     impl->geo = plan_.geo;
     impl->terrain = terrain_;
+    impl->ofMap = plan_.ofMap;
+    impl->isWhole = false;
     ByteReader reader(records);
     for (uint64_t i = 0; i < unit.shapes && reader.ok(); ++i) {
       work(records.size() / unit.shapes);

@@ -20,7 +20,7 @@ namespace gable {
 namespace {
 
 // Of the files of a plan; a program with another one cannot go on with it.
-constexpr int kFormat = 4;
+constexpr int kFormat = 5;
 constexpr uint64_t kMostPlanBytes = 64 << 20;
 
 std::string hex(uint64_t v) {
@@ -163,6 +163,7 @@ std::string settingsJson(const TilePlan::Impl& plan) {
   w.value(plan.square.low.x).value(plan.square.low.y).value(plan.square.side).endArray();
   w.field("geo", plan.geo ? plan.geo->text() : std::string());
   if (plan.terrainChecksum != 0) w.field("terrain", hex(plan.terrainChecksum));
+  if (plan.ofMap) w.field("ofMap", true);
   if (plan.ofOneRun) w.field("ofOneRun", true);
   w.field("shapes", plan.shapes).field("jobs", plan.jobs).endObject();
   out += '\n';
@@ -207,6 +208,7 @@ Result<TilePlan::Impl> readPlan(const std::string& folder) {
   plan.square = {{square.at(0).number(0), square.at(1).number(0)}, square.at(2).number(1)};
   plan.geo = geoFrameOf(v["geo"].text());
   plan.terrainChecksum = ofHex(v["terrain"].text());
+  plan.ofMap = v["ofMap"].boolean(false);
   plan.ofOneRun = v["ofOneRun"].boolean(false);
   plan.shapes = wholeOf(v["shapes"]);
   plan.jobs = wholeOf(v["jobs"]);

@@ -37,6 +37,8 @@ struct TilePlan::Impl {
   uint64_t shapes = 0, jobs = 0;
   /// Of the bytes of plan/terrain.bin; 0: the place is flat.
   uint64_t terrainChecksum = 0;
+  /// Its shapes are those of a map; see Shapes::Impl.
+  bool ofMap = false;
   /// One process runs all jobs, and no other one is to.
   bool ofOneRun = false;
 };

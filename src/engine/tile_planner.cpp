@@ -12,6 +12,7 @@
 #include "base/files.h"
 #include "base/hash.h"
 #include "base/work.h"
+#include "engine/city_rules.h"
 #include "engine/footprint.h"
 #include "engine/guard.h"
 #include "engine/shape_record.h"
@@ -222,6 +223,8 @@ std::shared_ptr<TilePlan::Impl> planned(const Rules& rules, const Shapes& shapes
   auto plan = std::make_shared<TilePlan::Impl>();
   Planner planner(rules, folder, settings, *plan);
   std::optional<Error> e = planner.begin();
+  plan->ofMap = shapes.impl().ofMap;
+  plan->diagnostics = cityRuleNotes(shapes.impl(), rules.impl());
   if (!e) {
     for (const ShapeFootprint& f : shapes.impl().footprints) planner.add(f);
     if (shapes.impl().terrain) e = planner.addTerrain(*shapes.impl().terrain);

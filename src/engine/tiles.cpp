@@ -5,6 +5,7 @@
 
 #include "gable/tiles.h"
 
+#include "engine/city_rules.h"
 #include "engine/guard.h"
 #include "engine/tile_plan.h"
 #include "engine/tile_source.h"
@@ -23,6 +24,7 @@ void tile(const Rules& rules, const Shapes& shapes, const std::string& path,
     if (auto e = planInUse(folder)) return fail(result, *e);
   }
   if (auto e = folder.open()) return fail(result, *e);
+  result.diagnostics = cityRuleNotes(shapes.impl(), rules.impl());
   Told told;
   ShapeSource source(rules, shapes, settings.derive, told, result);
   if (settings.derive.progress) {

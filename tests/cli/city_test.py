@@ -27,7 +27,7 @@ MAP = {
         feature("Polygon", square(0, 0, 12), building="yes", **{"building:levels": "4"}),
         feature("Polygon", square(60, 40, 20), building="yes", height="15 m"),
         feature("LineString", [[-10, 25], [40, 25], [100, 25]], highway="residential", lanes="2"),
-        feature("LineString", [[40, -10], [40, 25], [40, 80]], highway="residential"),
+        feature("LineString", [[40, -10], [40, 25], [40, 80]], highway="residential", oneway="no"),
         feature("Polygon", square(50, 0, 15), leisure="park"),
         feature("LineString", [[5, 5]], highway="residential"),
     ],
@@ -120,6 +120,10 @@ class City(Case):
         self.assertIn("calls the rule 'Helper' [unused-rule]", told)
         self.assertNotIn("'Wall'", told)
         self.assertRegex(told, r"note: .* begin with 'Ground': Carriageway \(4\), Footprint \(2\), .*\[city-rules\]")
+        # As tiles, which are made of some shapes at a time, the same once.
+        tiles = self.city("map.geojson", "--rules", "own", "-o", "own/")
+        for code in ("[city-rule]", "[unused-rule]", "[city-rules]"):
+            self.assertEqual(tiles.count(code), told.count(code))
         # Whose shapes the map has none of: a slip all the same.
         self.put("own/city.cga", "@StartRule Ground --> Flat.\nBuilding --> X.\nStreetLmp --> X.\nTree --> X.\n")
         told = self.city("map.geojson", "--rules", "own", "-o", "own.obj", says="a city calls no rule 'StreetLmp' [city-rule]")
@@ -131,8 +135,10 @@ class City(Case):
         self.assertIn("sets the attribute 'building_level': no shape has it [city-attribute]", told)
         self.assertIn("did you mean 'building_levels'?", told)
         # Those that come with Gable have one for everything.
-        for code in ("city-rule", "unused-rule", "city-attribute"):
-            self.assertNotIn(code, self.city("map.geojson", "-o", "all.obj"))
+        for place in ("all.obj", "all/"):
+            told = self.city("map.geojson", "-o", place)
+            for code in ("city-rule", "unused-rule", "city-attribute", "unused-property"):
+                self.assertNotIn(code, told)
 
     def testReportsOfRulesAreTables(self):
         (self.folder / "own").mkdir()

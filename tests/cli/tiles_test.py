@@ -506,7 +506,7 @@ class Jobs(Case):
         shapes.write_bytes(good)
         plan = self.folder / "out/plan/plan.json"
         text = plan.read_text()
-        plan.write_text(text.replace('"format": 4', '"format": 0'))
+        plan.write_text(text.replace('"format": 5', '"format": 0'))
         self.tiles("job", "out", "0", status=FILE, says="one version on all machines")
         plan.write_text(text[:100])
         self.tiles("merge", "out", status=FILE, says="tiles-plan")
