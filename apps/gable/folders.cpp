@@ -21,5 +21,5 @@ std::string studioPage() {
 }
 
 std::string examplesFolder() {
-  return folderWith("README.md", {"../../examples", "../share/gable/examples"});
+  return folderWith("rules/city.cga", {"../share/gable/examples", "../../examples"});
 }

@@ -36,14 +36,15 @@ constexpr int kLeastAtlas = 64;
 // Values are places in the words, or numbers.
 const std::vector<OptionRow>& optionRows() {
   static const std::vector<std::string> gltf{"glb", "gltf"}, gltfAndTiles{"glb", "gltf", "tiles"},
-      cityJson{"city.json", "city.jsonl"}, withPictures{"glb", "gltf", "obj", "usda", "usdz"};
+      instanced{"glb", "gltf", "tiles", "usda", "usdz"}, cityJson{"city.json", "city.jsonl"},
+      withPictures{"glb", "gltf", "obj", "usda", "usdz"};
   static const std::vector<OptionRow> rows{
       {"instancing",
-       "glTF: how parts that occur several times are shown: auto (by nodes, at most\n"
-       "20000; what saves least is merged), nodes (by a node each), gpu (by\n"
-       "EXT_mesh_gpu_instancing), none (one mesh, merged by material), shapes (a mesh for\n"
-       "each initial shape, which equal ones share)",
-       instancingNames(), 0, gltfAndTiles,
+       "glTF, USD: how parts that occur several times are shown: auto (by nodes, at most\n"
+       "20000; what saves least is merged), nodes (by a node each), none (written out);\n"
+       "glTF: gpu (by EXT_mesh_gpu_instancing), shapes (a mesh for each initial shape,\n"
+       "which equal ones share)",
+       instancingNames(), 0, instanced,
        [](WriteSettings& s, int v) { s.instancing = static_cast<Instancing>(v); }},
       {"vertices",
        "glTF: what a vertex takes: auto (compact in large files), float (single\n"
@@ -280,10 +281,15 @@ DiagnosticList writeClashes(const std::string& path, const WriteSettings& s) {
   DiagnosticList out;
   const std::string format = modelFormatOf(path);
   const bool known = !format.empty() || extensionOf(path) == "png";
-  if (!asksForGameScene(s) || !known) return out;
   const auto clash = [&](const std::string& message, const std::string& hint) {
     say(out, Severity::Error, kClash, message, hint);
   };
+  const bool isOfGltf = s.instancing == Instancing::Gpu || s.instancing == Instancing::Shapes;
+  if (isOfGltf && (format == "usda" || format == "usdz")) {
+    clash("'" + path + "' has no instancing '" + instancingNames()[static_cast<size_t>(s.instancing)] + "'",
+          "write the instancing auto, nodes or none, or a .glb");
+  }
+  if (!asksForGameScene(s) || !known) return out;
   if (format != "glb" && format != "gltf") {
     clash("'" + path + "' cannot have collision shapes, levels of detail or names of engines",
           "write .glb or .gltf, or leave these options out");

@@ -159,6 +159,22 @@ class Models(Case):
         self.assertEqual([(s[2], s[-1]) for s in storeys],
                          [("'Storey 0'", "0.);"), ("'Storey 1'", "3.);"), ("'Storey 2'", "6.);")])
 
+    def testUsdWithoutInstancesIsWholeInThreeJs(self):
+        all_of_it = self.written("a.usda", "--instancing", "none")["triangles"]
+        self.assertEqual(self.read_by_others("a.usda")["triangles"], all_of_it)
+        # Its loader leaves out what is referred to within the file.
+        self.written("shared.usda")
+        self.assertLess(self.read_by_others("shared.usda")["triangles"], all_of_it)
+        for word in ("gpu", "shapes"):
+            self.run_gable("generate", "x.cga", "--shapes", "lots.geojson", "-o", "b.usdz", "--instancing", word,
+                           status=USAGE, says=f"has no instancing '{word}'")
+
+    def testALotThatStandsIsABuilding(self):
+        self.put("lot.cga", "Lot --> extrude(9)\n")
+        self.run_gable("generate", "lot.cga", "-o", "lot.city.json")
+        objects = json.loads((self.folder / "lot.city.json").read_text(encoding="utf-8"))["CityObjects"]
+        self.assertEqual([o["type"] for o in objects.values()], ["Building"])
+
     def testWordsThatNameNothingAreTold(self):
         self.put("w.cga", 'attr cityPart = ""\nLot --> extrude(3) set(cityPart, "Widget") Body.\n')
         for name in ("w.city.json", "w.ifc"):

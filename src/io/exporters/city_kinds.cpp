@@ -151,6 +151,15 @@ CityKind cityKindOfIdentifier(std::string_view name) {
   return kind;
 }
 
+bool isLot(std::string_view name) {
+  bool is = false;
+  forEachWord(ownName(name), [&](const std::string& word) {
+    is = word == "lot";
+    return kindOfWord(word) != CityKind::Unknown;
+  });
+  return is;
+}
+
 bool isTrim(std::string_view name) {
   bool is = false;
   forEachWord(ownName(name), [&](const std::string& word) {
@@ -160,15 +169,31 @@ bool isTrim(std::string_view name) {
   return is && cityKindOfIdentifier(name) == CityKind::Unknown;
 }
 
+// Of a mesh that looks down somewhere, in the frame of its leaf; else 0.
+double heightOfBody(const Mesh& mesh) {
+  constexpr double kDown = -0.5;
+  for (size_t f = 0; f < mesh.faceCount(); ++f) {
+    work();
+    if (mesh.normal(f).y < kDown) return mesh.bounds().size().y;
+  }
+  return 0;
+}
+
 CityParts::CityParts(const Scene& scene) {
   for (const std::string& name : scene.names) {
     work(name.size());
-    nameKinds_.push_back(cityKindOfIdentifier(name));
+    names_.push_back({cityKindOfIdentifier(name), isLot(name)});
     trims_.push_back(isTrim(name));
   }
   for (const SourcePlace& s : scene.sources) {
     work(s.rule.size());
-    sourceKinds_.push_back(cityKindOfIdentifier(s.rule));
+    sources_.push_back({cityKindOfIdentifier(s.rule), isLot(s.rule)});
+  }
+  bodies_.resize(scene.meshes.size());
+  for (const Leaf& l : scene.leaves) {
+    const bool isLot = l.name < names_.size() && names_[l.name].isLot;
+    const bool isOfLot = l.source < sources_.size() && sources_[l.source].isLot;
+    if (isLot || isOfLot) bodies_[l.mesh] = heightOfBody(*scene.meshes[l.mesh]);
   }
   for (const auto& set : scene.attributeSets) readAttributes(set);
   findWholes(scene);
@@ -203,14 +228,21 @@ void CityParts::readAttributes(const std::vector<AttributeValue>& set) {
   }
 }
 
+// A body that is higher than soil is thick is what stands on the lot.
+CityKind CityParts::kindOf(const Name& name, const Leaf& leaf) const {
+  constexpr double kSoil = 1;
+  const bool stands = name.isLot && bodies_[leaf.mesh] * std::abs(leaf.scale.y) > kSoil;
+  return stands ? CityKind::Unknown : name.kind;
+}
+
 CityPart CityParts::of(const Leaf& leaf) const {
   CityPart part;
   if (leaf.attributes < setParts_.size()) part = setParts_[leaf.attributes];
-  if (part.kind == CityKind::Unknown && leaf.name < nameKinds_.size()) {
-    part.kind = nameKinds_[leaf.name];
+  if (part.kind == CityKind::Unknown && leaf.name < names_.size()) {
+    part.kind = kindOf(names_[leaf.name], leaf);
   }
   if (part.kind != CityKind::Unknown) return part;
-  if (leaf.source < sourceKinds_.size()) part.kind = sourceKinds_[leaf.source];
+  if (leaf.source < sources_.size()) part.kind = kindOf(sources_[leaf.source], leaf);
   const bool isTrimmed = part.kind == CityKind::Unknown || part.kind == CityKind::Wall;
   if (isTrimmed && leaf.name < trims_.size() && trims_[leaf.name]) part.kind = CityKind::Window;
   return part;

@@ -79,6 +79,9 @@ CityKind cityKindNamed(std::string_view name);
 /// The kind that the last telling word of an identifier says, without the import before its dot;
 /// Unknown where none does.
 CityKind cityKindOfIdentifier(std::string_view name);
+/// True where the word "lot" says that it is land. Rules begin with a lot, so the word says it of
+/// what is flat alone: `Lot --> extrude(9)` is a house.
+bool isLot(std::string_view name);
 /// True where a name has only words of what windows have, and doors, railings and roofs as well,
 /// such as Frame: the rule's name counts before it, unless that is a wall.
 bool isTrim(std::string_view name);
@@ -114,8 +117,16 @@ class CityParts {
   void findWholes(const Scene& scene);
   uint32_t numberOf(const std::string& text);
 
+  struct Name {
+    CityKind kind = CityKind::Unknown;
+    bool isLot = false;
+  };
+  CityKind kindOf(const Name& name, const Leaf& leaf) const;
+
   // By name, source and attribute set.
-  std::vector<CityKind> nameKinds_, sourceKinds_;
+  std::vector<Name> names_, sources_;
+  // By mesh: the height of a body that a leaf of a lot shows.
+  std::vector<double> bodies_;
   std::vector<bool> trims_;
   std::vector<CityPart> setParts_;
   std::vector<std::string> texts_{""};

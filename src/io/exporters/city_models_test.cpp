@@ -223,6 +223,20 @@ TEST(CityJsonWriter, groundWithoutABuildingIsLand) {
   EXPECT_EQ(typesOf(model["CityObjects"]["built"]["geometry"].at(2)).count("GroundSurface"), 1u);
 }
 
+TEST(CityJsonWriter, whatIsCalledLotIsLandWhereItIsFlat) {
+  City c;
+  c.box("Lot", {0, 0, 0}, {9, 0.1, 9});
+  c.root("bare", c.prototype("Lot"), Frame{});
+  c.box("Lot", {0, 0, 0}, {9, 6, 9});
+  c.root("built", c.prototype("Lot"), Frame{});
+  c.box("Soil", {0, -6, 0}, {9, 6, 9});
+  c.root("soil", c.prototype("Lot"), Frame{});
+  const JsonValue model = written(c.scene, "lots.city.json");
+  EXPECT_EQ(model["CityObjects"]["bare"]["type"].text(), "LandUse");
+  EXPECT_EQ(model["CityObjects"]["built"]["type"].text(), "Building");
+  EXPECT_EQ(model["CityObjects"]["soil"]["type"].text(), "LandUse");
+}
+
 TEST(CityJsonWriter, aFeatureALine) {
   City c = houseWithGarden();
   c.box("Water", {0, 0, 0}, {5, 1, 5});
