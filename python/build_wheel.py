@@ -63,6 +63,8 @@ def write_wheel(folder, package):
     info = f"gable-{version()}.dist-info"
     name = f"gable-{version()}-{tag}-{tag}-{platform}.whl"
     files = {f"gable/{p.name}": p.read_bytes() for p in sorted(package.iterdir()) if p.is_file()}
+    rules = ROOT / "examples"
+    files |= {f"gable/bundled/{p.relative_to(rules)}": p.read_bytes() for p in sorted(rules.rglob("*.cga"))}
     files[f"{info}/METADATA"] = metadata().encode()
     files[f"{info}/LICENSE"] = (ROOT / "LICENSE").read_bytes()
     files[f"{info}/WHEEL"] = (

@@ -51,6 +51,8 @@ int watch(const Watched& watched) {
     // What follows is the answer of another run.
     printAnswer(status);
     std::fflush(stdout);
+    // What the command line says wrongly, no save mends.
+    if (status == kExitUsage) return status;
     FileTimes after = watched.times();
     if (watched.forget) watched.forget(before, after);
     while (!*cancelFlag() && after == before) {

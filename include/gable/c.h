@@ -96,6 +96,13 @@ typedef struct gable_load_settings {
   const char* dialect;
   /* A style that the rule file declares; NULL: none. */
   const char* style;
+  /* A folder of projects, whose files rules may read; NULL: none. */
+  const char* workspace;
+  /* Folders of further projects, each a folder or NAME=FOLDER. */
+  const char* const* libraries;
+  size_t library_count;
+  /* The folder of the rules that are called "/gable/rules/trees.cga"; NULL: none. */
+  const char* bundled;
 } gable_load_settings;
 gable_status gable_load_settings_init(gable_load_settings* settings);
 

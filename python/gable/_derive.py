@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from gable import _gable
+from gable._messages import at_least
 from gable._model import Model
 from gable._rules import Rules
 from gable._shapes import Shapes
@@ -36,6 +37,12 @@ def derive(
     `progress` is called with the number of shapes that are done, and of all. Ctrl-C and what it
     raises end the derivation. Other threads of Python run meanwhile.
     """
+    for name, value, kind in (("rules", rules, Rules), ("shapes", shapes, Shapes)):
+        if not isinstance(value, kind):
+            raise TypeError(f"{name} is a gable.{kind.__name__}, not {type(value).__name__}")
+    at_least("jobs", jobs, 1)
+    at_least("seconds", seconds, 0)
+    at_least("memory", memory, 0)
     values = {**(attributes or {}), **more}
     return Model(
         _gable.derive(

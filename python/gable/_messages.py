@@ -54,5 +54,18 @@ def checked(result: Any) -> Any:
     return result
 
 
+def at_least(name: str, value: Any, least: float) -> None:
+    """Raises ValueError where a number is too small, or none."""
+    if value is not None and not value >= least:
+        raise ValueError(f"{name} is {least} or more, not {value!r}")
+
+
+def above_zero(name: str, value: float) -> float:
+    """The number; raises ValueError where it is none above 0."""
+    if not 0 < value < float("inf"):
+        raise ValueError(f"{name} is a number of metres above 0, not {value!r}")
+    return value
+
+
 def path_text(path: str | os.PathLike[str]) -> str:
     return os.fsdecode(path)

@@ -206,6 +206,8 @@ class Model:
 
         `sun` is its elevation above the horizon and its azimuth clockwise from north.
         """
+        if not path_text(path).lower().endswith(".png"):
+            raise ValueError(f"a picture is a .png, not {path_text(path)!r}")
         if view not in _VIEWS:
             raise ValueError(f"view is one of {', '.join(_VIEWS)}, not {view!r}")
         _written(

@@ -5,7 +5,9 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from gable import _gable
@@ -70,14 +72,18 @@ class Rules:
         style: str | None = None,
         project: str | os.PathLike[str] | None = None,
         notation: str | None = None,
+        workspace: str | os.PathLike[str] | None = None,
+        libraries: Iterable[str | os.PathLike[str]] = (),
     ) -> Rules:
         """Reads a rule file (.cga, .park, .gbbg, ...) or a package (.rpk, .zip).
 
         `project` is the folder that rules may read from; without it the one that the file lies in
-        is found as on the command line. Raises Error with all mistakes of the rules.
+        is found as on the command line. Files of other projects are read from `workspace`, a folder
+        of projects, and from `libraries`, each a folder or "NAME=FOLDER"; "/gable/rules/trees.cga"
+        and its like come with the module. Raises Error with all mistakes of the rules.
         """
-        folder = None if project is None else path_text(project)
-        return cls(_gable.Rules.load(path_text(path), folder, notation, style))
+        place = _search(project, workspace, libraries)
+        return cls(_gable.Rules.load(path_text(path), *place, notation, style))
 
     @classmethod
     def parse(
@@ -88,10 +94,12 @@ class Rules:
         style: str | None = None,
         project: str | os.PathLike[str] | None = None,
         notation: str | None = None,
+        workspace: str | os.PathLike[str] | None = None,
+        libraries: Iterable[str | os.PathLike[str]] = (),
     ) -> Rules:
         """The same for text in memory; `path` names it in messages and places it in the project."""
-        folder = None if project is None else path_text(project)
-        return cls(_gable.Rules.parse(text, path_text(path), folder, notation, style))
+        place = _search(project, workspace, libraries)
+        return cls(_gable.Rules.parse(text, path_text(path), *place, notation, style))
 
     @property
     def messages(self) -> list[Message]:
@@ -117,3 +125,21 @@ class Rules:
 
     def __repr__(self) -> str:
         return f"<gable.Rules, starts with {self.start_rule}>"
+
+
+def _search(project: Any, workspace: Any, libraries: Iterable[Any]) -> tuple[Any, Any, list[str], Any]:
+    """Where rules may read files: the project, the workspace, libraries, and what comes with Gable."""
+
+    def text(folder: Any) -> str | None:
+        return None if folder is None else path_text(folder)
+
+    return text(project), text(workspace), [path_text(p) for p in libraries], text(_bundled())
+
+
+def _bundled() -> Path | None:
+    """The rules that come with Gable: beside the module, or in the tree that it was built in."""
+    here = Path(__file__).resolve()
+    for folder in (here.parent / "bundled", *(p / "examples" for p in list(here.parents)[4:5])):
+        if (folder / "rules" / "city.cga").exists():
+            return folder
+    return None

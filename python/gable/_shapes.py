@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from gable import _gable
-from gable._messages import Message, checked, messages_of, path_text
+from gable._messages import Message, above_zero, checked, messages_of, path_text
 
 
 class Outline(NamedTuple):
@@ -31,7 +31,7 @@ class Shapes:
     @classmethod
     def lot(cls, width: float, depth: float) -> Shapes:
         """A rectangle with a corner at the origin: `width` along +x, `depth` along -z."""
-        return cls(_gable.Shapes.lot(width, depth))
+        return cls(_gable.Shapes.lot(above_zero("width", width), above_zero("depth", depth)))
 
     @classmethod
     def polygon(cls, ring: Iterable[Any], holes: Iterable[Iterable[Any]] = ()) -> Shapes:
@@ -139,7 +139,10 @@ class Shapes:
 
 
 def _ring(points: Iterable[Any]) -> list[tuple[float, float]]:
-    return [(float(p[0]), float(p[1])) for p in points]
+    ring = [(float(p[0]), float(p[1])) for p in points]
+    if len(set(ring)) < 3:
+        raise ValueError(f"a polygon has at least 3 points, not {len(set(ring))}")
+    return ring
 
 
 def _open(ring: Sequence[Any]) -> Sequence[Any]:

@@ -46,10 +46,15 @@ py::list rulesOf(const Rules& rules) {
   return out;
 }
 
-LoadSettings settingsOf(std::optional<std::string> project, std::optional<std::string> notation,
-                        std::optional<std::string> style) {
+using Text = std::optional<std::string>;
+
+LoadSettings settingsOf(Text project, Text workspace, std::vector<std::string> libraries,
+                        Text bundled, Text notation, Text style) {
   LoadSettings s;
   s.project = std::move(project);
+  s.search.workspace = std::move(workspace);
+  s.search.libraries = std::move(libraries);
+  s.search.bundled = std::move(bundled);
   s.dialect = std::move(notation);
   s.style = std::move(style);
   return s;
@@ -58,24 +63,28 @@ LoadSettings settingsOf(std::optional<std::string> project, std::optional<std::s
 }  // namespace
 
 void bindRules(py::module_& m) {
-  using Text = std::optional<std::string>;
+  using Folders = std::vector<std::string>;
   py::class_<Rules>(m, "Rules")
       .def_static(
           "load",
-          [](const std::string& path, Text project, Text notation, Text style) {
+          [](const std::string& path, Text project, Text workspace, Folders libraries, Text bundled,
+             Text notation, Text style) {
             const py::gil_scoped_release released;
-            return Rules::load(path, settingsOf(project, notation, style));
+            return Rules::load(path,
+                               settingsOf(project, workspace, libraries, bundled, notation, style));
           },
-          py::arg("path"), py::arg("project"), py::arg("notation"), py::arg("style"))
+          py::arg("path"), py::arg("project"), py::arg("workspace"), py::arg("libraries"),
+          py::arg("bundled"), py::arg("notation"), py::arg("style"))
       .def_static(
           "parse",
-          [](const std::string& text, const std::string& path, Text project, Text notation,
-             Text style) {
+          [](const std::string& text, const std::string& path, Text project, Text workspace,
+             Folders libraries, Text bundled, Text notation, Text style) {
             const py::gil_scoped_release released;
-            return Rules::parse(text, path, settingsOf(project, notation, style));
+            return Rules::parse(
+                text, path, settingsOf(project, workspace, libraries, bundled, notation, style));
           },
-          py::arg("text"), py::arg("path"), py::arg("project"), py::arg("notation"),
-          py::arg("style"))
+          py::arg("text"), py::arg("path"), py::arg("project"), py::arg("workspace"),
+          py::arg("libraries"), py::arg("bundled"), py::arg("notation"), py::arg("style"))
       .def("ok", &Rules::ok)
       .def("messages", [](const Rules& r) { return messagesOf(r.diagnostics()); })
       .def("attributes", &attributesOf)

@@ -21,6 +21,11 @@ bool settingsOf(const gable_load_settings* given, LoadSettings& out) {
   if (s.project) out.project = s.project;
   if (s.dialect) out.dialect = s.dialect;
   if (s.style) out.style = s.style;
+  if (s.workspace) out.search.workspace = s.workspace;
+  if (s.bundled) out.search.bundled = s.bundled;
+  for (size_t i = 0; s.libraries && i < s.library_count; ++i) {
+    if (s.libraries[i]) out.search.libraries.emplace_back(s.libraries[i]);
+  }
   return true;
 }
 

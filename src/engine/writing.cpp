@@ -286,7 +286,8 @@ DiagnosticList writeClashes(const std::string& path, const WriteSettings& s) {
   };
   const bool isOfGltf = s.instancing == Instancing::Gpu || s.instancing == Instancing::Shapes;
   if (isOfGltf && (format == "usda" || format == "usdz")) {
-    clash("'" + path + "' has no instancing '" + instancingNames()[static_cast<size_t>(s.instancing)] + "'",
+    clash("'" + path + "' has no instancing '" +
+              instancingNames()[static_cast<size_t>(s.instancing)] + "'",
           "write the instancing auto, nodes or none, or a .glb");
   }
   if (!asksForGameScene(s) || !known) return out;

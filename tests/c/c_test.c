@@ -102,6 +102,31 @@ static void tellsMistakesOfRules(void) {
   gable_shapes_release(shapes);
 }
 
+/* A file of another project is missing unless the settings say where it is. */
+static void readsOtherProjects(const char* folder) {
+  const char text[] = "import roof : \"/bundle/roof.cga\"\n@StartRule Lot --> roof.Top\n";
+  const char* libraries[1];
+  char bundle[1024], roof[1100];
+  snprintf(bundle, sizeof bundle, "%s/bundle", folder);
+  EXPECT(mkdir(bundle, 0777) == 0 || errno == EEXIST);
+  snprintf(roof, sizeof roof, "%s/roof.cga", bundle);
+  FILE* file = fopen(roof, "w");
+  EXPECT(file != NULL && fputs("Top --> extrude(3) Roof.\n", file) >= 0);
+  if (file) fclose(file);
+  for (int known = 0; known < 2; ++known) {
+    gable_load_settings settings;
+    gable_rules* rules = NULL;
+    size_t count = 0;
+    EXPECT(gable_load_settings_init(&settings) == GABLE_OK);
+    libraries[0] = bundle;
+    settings.libraries = libraries;
+    settings.library_count = (size_t)known;
+    EXPECT(gable_rules_parse(text, strlen(text), "a.cga", &settings, &rules) == GABLE_OK);
+    EXPECT(gable_diagnostic_count(rules, &count) == GABLE_OK && (count == 0) == (known == 1));
+    gable_rules_release(rules);
+  }
+}
+
 static void makesShapesOfAllKinds(const char* folder) {
   const double corners[] = {0, 0, 10, 0, 10, 10, 0, 10, 4, 4, 4, 6, 6, 6, 6, 4};
   const size_t rings[] = {4, 4};
@@ -365,6 +390,7 @@ int main(int argc, char** argv) {
   EXPECT(strlen(gable_library_version()) > 0);
   readsAttributesWithAnnotations();
   tellsMistakesOfRules();
+  readsOtherProjects(argv[1]);
   makesShapesOfAllKinds(argv[1]);
   readsReportsAndPrints();
   readsGeometry();

@@ -94,6 +94,15 @@ class Watch(Case):
         answers = [json.loads(text + "}") for text in told.split("\n}\n") if text]
         self.assertEqual([(a["status"], a["files"]) for a in answers], [(DONE, ["out.obj"]), (WRONG, [])])
 
+    def testWhatNoSaveMendsEndsAWatch(self):
+        self.put("tower.cga", "Lot --> extrude(9)\n")
+        for arguments in (["watch", "tower.cga", "-o", "a.xyz"], ["watch", "tower.cga", "--lot", "nine", "-o", "a.glb"],
+                          ["generate", "tower.cga", "-o", "a.obj", "--instancing", "gpu", "--watch"]):
+            with self.subTest(arguments=arguments):
+                done = subprocess.run([str(GABLE), *arguments], cwd=self.folder, capture_output=True, text=True,
+                                      timeout=60, check=False)
+                self.assertEqual(done.returncode, USAGE, done.stderr)
+
     def answer_of(self, watching):
         told = ""
         while not told.endswith("\n}\n") and (line := watching.stdout.readline()):

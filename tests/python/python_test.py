@@ -65,9 +65,41 @@ class Rules(unittest.TestCase):
         self.assertEqual(places[0], ("unknown-operation", "a.cga", 1))
         self.assertIn("a.cga:2", str(raised.exception))
 
+    def test_rules_that_come_with_gable_and_other_projects(self):
+        rules = gable.Rules.parse('import trees : "/gable/rules/trees.cga"\n@StartRule\nLot --> trees.Plant("oak", 9)\n')
+        self.assertFalse([m for m in rules.messages if m.severity == "warning"], rules.messages)
+        self.assertGreater(len(gable.derive(rules, gable.Shapes.lot(9, 9))), 1)
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("one", "two"):
+                (Path(folder) / name / "rules").mkdir(parents=True)
+            (Path(folder) / "two/rules/roof.cga").write_text("Top --> Two.\n", encoding="utf-8")
+            main = Path(folder) / "one/rules/a.cga"
+            main.write_text('import roof : "/two/rules/roof.cga"\n@StartRule\nLot --> roof.Top\n', encoding="utf-8")
+            for where in ({"workspace": folder}, {"libraries": [Path(folder) / "two"]}):
+                model = gable.derive(gable.Rules.load(main, **where), gable.Shapes.lot(9, 9))
+                self.assertEqual(model.leaf(0).name, "Two")
+            self.assertIn("import-not-found", [m.code for m in gable.Rules.load(main).messages])
+
     def test_a_file_that_is_not_there(self):
         with self.assertRaisesRegex(gable.Error, "nowhere.cga"):
             gable.Rules.load(Path("nowhere.cga"))
+
+
+class BadInput(unittest.TestCase):
+    def test_is_named(self):
+        rules, lot = gable.Rules.parse(BOX), gable.Shapes.lot(9, 9)
+        for kind, words, call in (
+            (TypeError, "shapes is a gable.Shapes, not list", lambda: gable.derive(rules, [1, 2])),
+            (TypeError, "rules is a gable.Rules, not str", lambda: gable.derive("a.cga", lot)),
+            (ValueError, "jobs is 1 or more, not 0", lambda: gable.derive(rules, lot, jobs=0)),
+            (ValueError, "seconds is 0 or more, not -1", lambda: gable.derive(rules, lot, seconds=-1)),
+            (ValueError, "width is a number of metres above 0, not -1", lambda: gable.Shapes.lot(-1, 2)),
+            (ValueError, "depth is a number of metres above 0, not nan", lambda: gable.Shapes.lot(1, float("nan"))),
+            (ValueError, "at least 3 points, not 2", lambda: gable.Shapes.polygon([(0, 0), (1, 1)])),
+            (ValueError, "a picture is a .png, not 'x.xyz'", lambda: gable.derive(rules, lot).picture("x.xyz")),
+        ):
+            with self.subTest(words), self.assertRaisesRegex(kind, re.escape(words)):
+                call()
 
 
 class Shapes(unittest.TestCase):

@@ -98,9 +98,13 @@ Result<ShapeFile> readShapes(std::string_view bytes, const AssetOptions& options
     return model.ok() ? readObjShapes(model->obj, model->options) : model.error();
   }
   if (extension == "gltf" || extension == "glb") return readGltfShapes(bytes, options);
-  return Error{
-      "shapes-unknown", "'" + options.path + "' is no file of shapes that can be read",
-      "use GeoJSON, OpenStreetMap, GeoPackage, FlatGeobuf, a shapefile, KML, DXF, OBJ or glTF"};
+  if (options.path.ends_with(".city.jsonl")) {
+    return Error{"shapes-unknown", "'" + options.path + "' is CityJSONSeq, which is not read",
+                 "make it a .city.json, as cjio does"};
+  }
+  return Error{"shapes-unknown", "'" + options.path + "' is no file of shapes that can be read",
+               "use GeoJSON, CityJSON, OpenStreetMap, GeoPackage, FlatGeobuf, a shapefile, KML, "
+               "DXF, OBJ or glTF"};
 }
 
 bool isStreamed(const std::string& path) {
