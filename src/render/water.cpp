@@ -3,8 +3,8 @@
 //
 // Waves are a sum of sines about one wind, their lengths a geometric series, each as steep as the
 // next, which is what a light breeze makes (Tessendorf 2001 has the measured spectrum). Gusts make
-// some patches calmer than others. Waves that are too fine to be seen count by how their slopes vary
-// (Olano and Baker 2010, LEAN Mapping): drawn one by one, they would make the sun's glitter a
+// some patches calmer than others. Waves that are too fine to be seen count by how their slopes
+// vary (Olano and Baker 2010, LEAN Mapping): drawn one by one, they would make the sun's glitter a
 // scatter of white dots.
 
 #include "render/water.h"
