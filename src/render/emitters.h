@@ -50,11 +50,16 @@ class Emitters {
   struct Node {
     Vec3f min, max;
     float power = 0;
+    /// The facets of its emitters are within the angle of that cosine about the axis.
+    Vec3f axis;
+    float spread = -1;
     uint32_t first = 0, count = 0, left = 0;
   };
 
   void addPart(const World& world, uint32_t placement, const Shine& shine);
   void build();
+  void orient(Node& node) const;
+  static float facing(const Node& node, const Vec3f& to, float squared, float radius);
   static float importance(const Node& node, const Vec3f& at, const Vec3f& normal);
 
   std::vector<Emitter> emitters_;

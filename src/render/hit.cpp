@@ -242,7 +242,7 @@ Surface surfaceAt(const World& world, const Hit& hit, const Ray& ray, float widt
   s.normal = s.facet;
 
   if (m.matter == Matter::Water) {
-    makeWater(s, hit.distance);
+    makeWater(s, normalized(ray.direction), hit.distance, width);
     faceViewer(s, ray);
     return s;
   }

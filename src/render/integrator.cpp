@@ -26,6 +26,9 @@ enum BlockPart : uint32_t { kOpacity, kSun, kDirection, kPick, kRoulette, kLamp,
 constexpr int kMostPassages = 24;
 /// Share of the open sky's light that stands for the bounces that are not traced.
 constexpr float kUntracedShare = 0.4f;
+/// How narrow the sun's highlight may be on what is not seen directly.
+constexpr float kLeastReflectedAlpha = 0.1f;
+
 /// A path on its way.
 struct Walk {
   Ray ray;
@@ -153,14 +156,26 @@ class Tracing {
 
   Vec3f sunlight(const Walk& w, const Surface& surface, const Lobes& lobes, const Vec3f& view) {
     if (maxOf(light_.sun) <= 0) return {};
-    const Vec3f towards = light_.towardsSun(sampler_.point(w.dimension(kSun)));
-    const Vec3f value = evaluate(surface, lobes, view, towards);
+    const Vec3f value = evaluate(surface, forSun(w, lobes), view, light_.sunDirection);
     if (maxOf(value) <= 0) return {};
+    const Vec3f towards = light_.towardsSun(sampler_.point(w.dimension(kSun)));
     Ray shadow;
     shadow.origin = offsetFrom(surface.point, surface.facet, towards);
     shadow.direction = towards;
     ++result.rays;
     return value * light_.sun * visibility(stage_, shadow);
+  }
+
+  /// The lobes that the whole disc of the sun is mirrored in: wider by its radius, which turns half
+  /// as far as the normal. What the camera does not see itself shines in a wider one (Kaplanyan and
+  /// Dachsbacher 2013, Path Space Regularization): few paths find a narrow one, and those that do
+  /// are fireflies.
+  Lobes forSun(const Walk& w, const Lobes& lobes) const {
+    Lobes wide = lobes;
+    const float half = light_.sunRadius() / 2;
+    wide.alpha = std::sqrt(lobes.alpha * lobes.alpha + half * half);
+    if (w.depth > 0 || !w.sharp) wide.alpha = std::max(wide.alpha, kLeastReflectedAlpha);
+    return wide;
   }
 
   Vec3f lamplight(const Walk& w, const Surface& surface, const Lobes& lobes, const Vec3f& view) {
@@ -184,7 +199,8 @@ class Tracing {
     // The sun's glitter is on the surface itself.
     Lobes coat = lobes;
     coat.diffuse = coat.through = {};
-    target(w) += withoutFireflies(w.carried * sunlight(w, surface, coat, view), limit_ * 4);
+    target(w) += withoutFireflies(w.carried * sunlight(w, surface, coat, view),
+                                  w.sharp ? limit_ * 4 : limit_);
     const float cosine = std::clamp(dot(surface.normal, view), 0.0f, 1.0f);
     const float m = 1 - cosine, mirror = surface.facing + (1 - surface.facing) * m * m * m * m * m;
     const bool splits = w.depth == 0 && w.sharp;

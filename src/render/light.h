@@ -34,6 +34,8 @@ class Light {
   /// outshines the street a thousand times, and no picture shows that.
   float shownGlow = 0, glow = 0;
 
+  /// Of the sun's disc, in radians.
+  float sunRadius() const { return sunRadius_; }
   /// A direction on the sun's disc.
   Vec3f towardsSun(Vec2f u) const;
   /// What lights surfaces, from a unit direction; below the horizon what an open ground sends up.

@@ -3,10 +3,13 @@
 //
 // Waves are a sum of sines about one wind, their lengths a geometric series, each as steep as the
 // next, which is what a light breeze makes (Tessendorf 2001 has the measured spectrum). Gusts make
-// some patches calmer than others.
+// some patches calmer than others. Waves that are too fine to be seen count by how their slopes
+// vary (Olano and Baker 2010, LEAN Mapping): drawn one by one, they would make the sun's glitter a
+// scatter of white dots.
 
 #include "render/water.h"
 
+#include <algorithm>
 #include <array>
 
 #include "math/trig.h"
@@ -55,9 +58,27 @@ float gust(const Vec3f& p) {
          0.2f * std::sin(p.z / 7.3f + 1.7f * std::sin(p.x / 23));
 }
 
+/// What a pixel covers of a level surface: it is longer along the view the flatter one looks.
+struct Footprint {
+  float x, z, width, length;
+
+  Footprint(const Vec3f& direction, float pixel) : width(pixel) {
+    const float flat = std::sqrt(direction.x * direction.x + direction.z * direction.z);
+    x = flat > 0 ? direction.x / flat : 1;
+    z = flat > 0 ? direction.z / flat : 0;
+    length = pixel / std::max(1e-3f, std::abs(direction.y));
+  }
+
+  /// Its extent along the unit vector (u, w) of the plane.
+  float along(float u, float w) const {
+    const float ahead = (x * u + z * w) * length, aside = (x * w - z * u) * width;
+    return std::sqrt(ahead * ahead + aside * aside);
+  }
+};
+
 }  // namespace
 
-void makeWater(Surface& s, float distance) {
+void makeWater(Surface& s, const Vec3f& direction, float distance, float width) {
   if (s.opacity < 1) {
     // The share that is left after a metre is 1 - opacity.
     s.clearWater = s.opacity > 0 ? -1 / std::log(1 - s.opacity) : 1e6f;
@@ -65,14 +86,16 @@ void makeWater(Surface& s, float distance) {
   }
   if (std::abs(s.facet.y) < 0.9f) return;
   const float strength = gust(s.point) * kSlope;
-  const float finest = distance * kSharpEye;
+  const float eye = distance * kSharpEye;
+  const Footprint footprint(direction, width);
   float slopeX = 0, slopeZ = 0, lost = 0;
   for (const Wave& w : waves()) {
-    const float seen = std::clamp((w.length / std::max(1e-6f, finest) - 1) / 3, 0.0f, 1.0f);
+    const float k = 2 * kPif / w.length;
+    const float finest = std::max({eye, footprint.along(w.x / k, w.z / k), 1e-6f});
+    const float seen = std::clamp((w.length / finest - 1) / 3, 0.0f, 1.0f);
     const float slope = strength * seen;
     lost += strength * strength * (1 - seen * seen) / 2;
     if (slope <= 0) continue;
-    const float k = 2 * kPif / w.length;
     const float c = std::cos(w.x * s.point.x + w.z * s.point.z + w.phase) * slope / k;
     slopeX += c * w.x;
     slopeZ += c * w.z;

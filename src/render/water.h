@@ -11,10 +11,11 @@ namespace gable::rt {
 /// Index of refraction.
 constexpr float kWater = 1.33f;
 
-/// Gives a level surface of water its waves: the normal bends, and where waves are finer than what
-/// the eye tells apart at that distance the surface is rougher instead. Takes clearness from
+/// Gives a level surface of water, seen along a unit direction, its waves: the normal bends, and
+/// where waves are finer than what the eye tells apart at that distance, or than what is seen of
+/// the surface in a `width` (see surfaceAt), the surface is rougher instead. Takes clearness from
 /// `opacity`.
-void makeWater(Surface& surface, float distance);
+void makeWater(Surface& surface, const Vec3f& direction, float distance, float width);
 
 /// Direction of a ray that meets water, within it; zero where all is mirrored. Both unit, `normal`
 /// against the ray.
