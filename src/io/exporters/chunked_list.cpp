@@ -31,6 +31,9 @@ namespace {
 constexpr uint32_t kNew = 0xffffffff;
 /// Behind the bytes: what they become a part of goes in front, without moving house.
 constexpr size_t kRoom = 1 << 20;
+/// More than most leaves take: bytes that grow move house each time. What is reserved and never
+/// touched is free.
+constexpr size_t kBytesALeaf = 512;
 
 template <class T>
 void append(std::string& out, const std::vector<T>& data) {
@@ -54,6 +57,9 @@ class ChunkWriter {
   explicit ChunkWriter(const DrawPlan& plan) : plan_(plan), builder_(plan) {}
 
   void write(std::span<const LeafRange> ranges) {
+    uint64_t leaves = 0;
+    for (const LeafRange& r : ranges) leaves += r.to - r.from;
+    bytes_.reserve(leaves * kBytesALeaf);
     size_t open = 0;
     forEachLeafIn(plan_, ranges,
                   [&](const Leaf& leaf, const Frame& world, uint64_t number, size_t range) {
