@@ -295,9 +295,11 @@ std::string checkReport(const Facts& facts, const Words& words) {
 
 std::string checkAttribute(const Facts& facts, const Words& words) {
   return checkEach(facts, words, 2, [&](const PlacedLeaf& leaf, size_t at) -> std::string {
+    const Scene& scene = *facts.outcome->scene;
     const uint32_t set = leaf.leaf->attributes;
-    if (set < facts.outcome->scene->attributeSets.size()) {
-      for (const AttributeValue& a : facts.outcome->scene->attributeSets[set]) {
+    if (set < scene.attributeSets.size()) {
+      for (const uint32_t place : scene.attributeSets[set]) {
+        const AttributeValue& a = scene.attributeValues[place];
         if (a.name != words[at] || a.values.empty()) continue;
         const PlainValue& v = a.values.front();
         if (v.kind == PlainValue::Kind::Number) return compare(v.number, words, at + 1);

@@ -23,7 +23,8 @@ struct Made {
     red.color = {1, 0, 0};
     scene.materials = {Material{}, red};
     scene.materialLists = {{0}, {1}};
-    scene.attributeSets = {{}, {{"height", {{PlainValue::Kind::Number, 3, ""}}, 0, 0}}};
+    scene.attributeValues = {{"height", {{PlainValue::Kind::Number, 3, ""}}, 0, 0}};
+    scene.attributeSets = {{}, {0}};
     Leaf tower;
     tower.frame = Frame::moved({1, 0, 0});
     tower.scale = {2, 3, 4};

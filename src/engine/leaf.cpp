@@ -158,7 +158,11 @@ std::optional<LeafInfo> leafOf(const Scene& scene, uint64_t number) {
   out.vertices = mesh.positions.size();
   out.material = materialInfoOf(materialOf(scene, *leaf, 0));
   if (leaf->attributes < scene.attributeSets.size()) {
-    out.attributes = namedValuesOf(scene.attributeSets[leaf->attributes]);
+    std::vector<AttributeValue> set;
+    for (const uint32_t place : scene.attributeSets[leaf->attributes]) {
+      set.push_back(scene.attributeValues[place]);
+    }
+    out.attributes = namedValuesOf(set);
   }
   setScope(out, scene, found);
   for (const Above& a : found.above) {

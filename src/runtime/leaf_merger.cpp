@@ -4,9 +4,11 @@
 #include "runtime/leaf_merger.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <system_error>
 
+#include "base/hash.h"
 #include "base/memory.h"
 #include "base/work.h"
 #include "runtime/recall.h"
@@ -346,16 +348,30 @@ uint32_t LeafMerger::attributesNumber(uint32_t set) {
       attributeNumbers_.try_emplace(set, static_cast<uint32_t>(scene_.attributeSets.size()));
   if (!fresh) return at->second;
   const auto& entries = input_.attributes.entries(set);
-  for (const auto& e : entries) attributeBytes_ += bytesOf(e.value);
-  std::vector<AttributeValue> values;
+  std::vector<uint32_t> values;
   values.reserve(entries.size());
+  attributeBytes_ += sizeof values + entries.size() * sizeof values[0];
   for (const auto& e : entries) {
     if (attributesFull()) break;
-    values.push_back(
-        plainAttribute(input_.program.attributes[e.key].name, e.value, *input_.program.pool));
+    values.push_back(attributeNumber(e));
   }
   scene_.attributeSets.push_back(std::move(values));
   return at->second;
+}
+
+// An import gives each shape all of its attributes, so most sets differ in few values.
+uint32_t LeafMerger::attributeNumber(const AttributePool::Entry& entry) {
+  const Value& v = entry.value;
+  const auto bits = std::bit_cast<uint64_t>(v.number);
+  const uint64_t kind = uint64_t{entry.key} << 8 | static_cast<uint64_t>(v.type);
+  const ShareKey key{hashCombine(hashCombine(kind, v.id), bits), bits};
+  if (const uint32_t* const known = valueNumbers_.find(key)) return *known;
+  const auto number = static_cast<uint32_t>(scene_.attributeValues.size());
+  attributeBytes_ += bytesOf(v);
+  scene_.attributeValues.push_back(
+      plainAttribute(input_.program.attributes[entry.key].name, v, *input_.program.pool));
+  valueNumbers_.emplace(key, number);
+  return number;
 }
 
 // What a value takes in the scene.

@@ -80,6 +80,7 @@ class LeafMerger {
   uint32_t nameNumber(StringId id);
   uint32_t sourceNumber(uint32_t instruction);
   uint32_t attributesNumber(uint32_t set);
+  uint32_t attributeNumber(const AttributePool::Entry& entry);
   SourcePlace placeOf(uint32_t instruction) const;
   uint64_t bytesOf(const Value& v) const;
   bool attributesFull() const { return attributeBytes_ > input_.mostAttributeBytes; }
@@ -110,7 +111,7 @@ class LeafMerger {
   std::pair<uint32_t, uint32_t> lastName_{kNoName, 0}, lastSource_{kNoName, 0},
       lastAttributes_{kNoName, 0};
   uint64_t attributeBytes_ = 0;
-  KeyNumbers meshNumbers_;
+  KeyNumbers meshNumbers_, valueNumbers_;
   std::unordered_map<uint64_t, uint32_t> listNumbers_;
   std::unordered_map<uint32_t, uint32_t> materialNumbers_, nameNumbers_, sourceNumbers_,
       attributeNumbers_;

@@ -120,7 +120,7 @@ TEST_F(LeafMergerTest, leavesOfTheSceneBeforeAreNumberedAnew) {
   EXPECT_EQ(0u, scene.leaves[1].attributes);
   EXPECT_EQ(1u, scene.leaves[2].attributes);
   EXPECT_EQ(1u, scene.leaves[3].attributes);
-  EXPECT_EQ(1, scene.attributeSets[1][0].values[0].number);
+  EXPECT_EQ(1, scene.attributeValues[scene.attributeSets[1][0]].values[0].number);
 }
 
 TEST_F(LeafMergerTest, whatIsNotFinishedIsLeft) {

@@ -94,6 +94,13 @@ OutputUnit Machine::run(const InitialShape& input, uint32_t index) {
 }
 
 void Machine::closeUnit(OutputUnit& unit, StringId name, uint64_t shapesBefore) {
+  // Nobody sees what a derivation that was stopped has made: it is not put into order first.
+  if (shared_.usage.cancelled()) {
+    const Output::Mark& begin = prototypes_.unitMark();
+    output_.openLeaves.resize(begin.leaves);
+    output_.openInstances.resize(begin.instances);
+    output_.openEvents.resize(begin.events);
+  }
   unit.worker = worker_;
   unit.prototype = prototypes_.endUnit(name, tally_.expanded() - shapesBefore);
   if (incremental_) incremental_->endUnit(worker_, unit.prototype);

@@ -20,9 +20,10 @@ uint64_t hashOf(const PlainValue& v) {
   return hashBytes(v.text, hashCombine(static_cast<uint64_t>(v.kind), hashDouble(v.number)));
 }
 
-uint64_t hashOf(const std::vector<AttributeValue>& set) {
+uint64_t hashOf(const Scene& scene, const std::vector<uint32_t>& set) {
   uint64_t h = set.size();
-  for (const AttributeValue& a : set) {
+  for (const uint32_t place : set) {
+    const AttributeValue& a = scene.attributeValues[place];
     h = hashCombine(hashBytes(a.name, h), static_cast<uint64_t>(a.rows) << 32 | a.columns);
     for (const PlainValue& v : a.values) h = hashCombine(h, hashOf(v));
   }
@@ -49,7 +50,7 @@ struct PoolHashes {
     }
     for (const std::string& n : s.names) names.push_back(hashBytes(n));
     for (const SourcePlace& p : s.sources) sources.push_back(hashOf(p));
-    for (const auto& a : s.attributeSets) attributeSets.push_back(hashOf(a));
+    for (const auto& a : s.attributeSets) attributeSets.push_back(hashOf(s, a));
   }
   static uint64_t at(const std::vector<uint64_t>& pool, uint32_t i) {
     return i < pool.size() ? pool[i] : 0;

@@ -126,7 +126,9 @@ struct Scene {
   std::vector<std::vector<uint32_t>> materialLists;
   std::vector<std::string> names;
   std::vector<SourcePlace> sources;
-  std::vector<std::vector<AttributeValue>> attributeSets;
+  /// What leaves have as attributes, each value of each attribute once; a set lists places in it.
+  std::vector<AttributeValue> attributeValues;
+  std::vector<std::vector<uint32_t>> attributeSets;
   /// In path order, instances expanded.
   std::vector<Report> reports;
   std::vector<std::string> prints;

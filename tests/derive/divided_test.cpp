@@ -88,6 +88,34 @@ TEST(Divided, givesWhatOneWorkerGives) {
   }
 }
 
+// A page is sent the chunks that it does not hold. Their ends and order must be those of the page's
+// next model, whoever was first to make a set of tags.
+TEST(Divided, whatIsDrawnIsCutIntoTheSameChunks) {
+  const char* const text = R"(
+@StartRule
+Lot --> split(x) { ~2 : split(z) { ~2 : Hut }* }*
+Hut --> tag("hut" + floor(rand(40))) extrude(rand(1, 3)) roofHip(rand(20, 40))
+        tag("edge" + floor(rand(40)), edges) comp(f) { side : Wall. | top : Roof. }
+Other --> tag("edge7", edges) tag("hut39") X.
+)";
+  const Shapes lot = Shapes::lot(140, 140);
+  DeriveSettings settings;
+  settings.jobs = 1;
+  const std::string expected = derive(rulesOf(text), lot, settings).drawUpdate(nullptr).bytes;
+  EXPECT_EQ(expected.substr(0, 4), "GBU1");
+  for (const int jobs : {2, 3, 8}) {
+    settings.jobs = jobs;
+    const Rules rules = rulesOf(text);
+    EXPECT_TRUE(dividedOf(rules, lot, settings).drawUpdate(nullptr).bytes == expected) << jobs;
+  }
+  // The tables of the rules know other tags first.
+  const Rules rules = rulesOf(text);
+  settings.startRule = "Other";
+  derive(rules, Shapes::lot(1, 1), settings);
+  settings.startRule.reset();
+  EXPECT_TRUE(derive(rules, lot, settings).drawUpdate(nullptr).bytes == expected);
+}
+
 TEST(Divided, partsAreTakenOverByTheNextDerivation) {
   const Shapes lot = Shapes::lot(60, 60);
   DeriveSettings settings;

@@ -259,8 +259,8 @@ Lot --> split(x) { 0.01 : set(a, [split.index:1:split.index+20000]) X. }*
   const Model model = derive(rules, Shapes::lot(1000, 10), settings);
   EXPECT_EQ(model.end(), End::LimitReached);
   uint64_t values = 0;
-  for (const auto& set : model.impl().result.scene.attributeSets) {
-    for (const AttributeValue& a : set) values += a.values.size();
+  for (const AttributeValue& a : model.impl().result.scene.attributeValues) {
+    values += a.values.size();
   }
   EXPECT_GT(values, 0u);
   EXPECT_LT(values * sizeof(PlainValue), uint64_t{30} << 20);

@@ -233,7 +233,7 @@ TEST_F(Vector, attributesPerLeaf) {
   for (const PlacedLeaf& leaf : flatLeaves(scene(model))) {
     const auto& set = scene(model).attributeSets[leaf.leaf->attributes];
     ASSERT_EQ(set.size(), 1u);
-    foo.push_back(set[0].values[0].text);
+    foo.push_back(scene(model).attributeValues[set[0]].values[0].text);
     ranges.push_back(ranges.back() +
                      static_cast<double>(worldMesh(scene(model), leaf).faceCount()));
   }

@@ -9,6 +9,7 @@
 
 #include "base/hash.h"
 #include "base/work.h"
+#include "geom/mesh/untagged_hash.h"
 
 namespace gable {
 namespace {
@@ -35,7 +36,6 @@ uint64_t hashShape(uint64_t h, const Mesh& m) {
   for (const MeshFace& f : m.faces) {
     h = hashCombine(h, (static_cast<uint64_t>(f.firstLoop) << 32) | f.loopCount);
     h = hashCombine(h, (static_cast<uint64_t>(f.materialSlot) << 1) | (f.smooth ? 1 : 0));
-    h = hashCombine(h, f.tags);
   }
   h = hashCombine(h, m.loops.size());
   for (const MeshLoop& l : m.loops) {
@@ -44,6 +44,19 @@ uint64_t hashShape(uint64_t h, const Mesh& m) {
   h = hashCombine(h, m.corners.size());
   for (const uint32_t c : m.corners) h = hashCombine(h, c);
   return h;
+}
+
+// Of the numbers of tag sets of faces, edges and vertices; 0 where there are none.
+uint64_t hashTags(const Mesh& m) {
+  uint64_t h = 0, any = m.edgeTags.size() + m.vertexTags.size();
+  for (const MeshFace& f : m.faces) {
+    h = hashCombine(h, f.tags);
+    any |= f.tags;
+  }
+  h = hashCombine(h, m.edgeTags.size());
+  for (const uint32_t t : m.edgeTags) h = hashCombine(h, t);
+  for (const uint32_t t : m.vertexTags) h = hashCombine(h, t);
+  return any == 0 ? 0 : h;
 }
 
 template <class T>
@@ -106,11 +119,11 @@ uint64_t Mesh::contentHash() const {
   }
   h = hashCombine(h, normals.size());
   for (const Vec3& n : normals) h = hashVec(h, n);
-  h = hashCombine(h, edgeTags.size());
-  for (const uint32_t t : edgeTags) h = hashCombine(h, t);
-  for (const uint32_t t : vertexTags) h = hashCombine(h, t);
-  return h;
+  // Such that untaggedHash() can take the tags out again.
+  return h ^ hashTags(*this);
 }
+
+uint64_t untaggedHash(const Mesh& mesh) { return (mesh.sharedHash() ^ hashTags(mesh)) | 1; }
 
 bool Mesh::valid() const {
   for (const MeshFace& f : faces) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "geom/mesh/untagged_hash.h"
+
 namespace gable {
 namespace {
 
@@ -154,6 +156,24 @@ TEST(Mesh, hashSeesEveryField) {
   e.normals[2] = {};
   for (const Mesh* changed : {&a, &b, &c, &d, &e, &f}) EXPECT_NE(changed->contentHash(), h);
   EXPECT_EQ(Mesh(m).contentHash(), h);
+}
+
+TEST(Mesh, untaggedHashSeesAllButTags) {
+  const Mesh m = quadWithHole();
+  Mesh a = m, b = m, c = m, bare = m;
+  a.faces[0].tags = 8;
+  b.edgeTags[1] = 0;
+  c.vertexTags = {4};
+  bare.faces[0].tags = 0;
+  bare.edgeTags.clear();
+  for (const Mesh* retagged : {&a, &b, &c, &bare}) {
+    EXPECT_NE(retagged->sharedHash(), m.sharedHash());
+    EXPECT_EQ(untaggedHash(*retagged), untaggedHash(m));
+  }
+  EXPECT_EQ(untaggedHash(bare), bare.sharedHash());
+  Mesh moved = a;
+  moved.positions[0].x = 0.1;
+  EXPECT_NE(untaggedHash(moved), untaggedHash(m));
 }
 
 TEST(Mesh, validRejectsBrokenMeshes) {

@@ -18,6 +18,7 @@
 #include "base/json.h"
 #include "base/parallel.h"
 #include "base/work.h"
+#include "geom/mesh/untagged_hash.h"
 #include "io/exporters/draw_batches.h"
 #include "io/exporters/draw_chunks.h"
 #include "io/exporters/draw_list.h"
@@ -30,6 +31,9 @@ namespace {
 constexpr uint32_t kNew = 0xffffffff;
 /// Behind the bytes: what they become a part of goes in front, without moving house.
 constexpr size_t kRoom = 1 << 20;
+/// More than most leaves take: bytes that grow move house each time. What is reserved and never
+/// touched is free.
+constexpr size_t kBytesALeaf = 512;
 
 template <class T>
 void append(std::string& out, const std::vector<T>& data) {
@@ -42,7 +46,7 @@ void append(std::string& out, uint32_t number) {
 
 /// A batch by what it is, not by its number in one scene.
 uint64_t nameOf(const DrawPlan& plan, const BatchKey& key) {
-  const uint64_t mesh = key.mesh == kMerged ? 0 : plan.scene().meshes[key.mesh]->sharedHash();
+  const uint64_t mesh = key.mesh == kMerged ? 0 : untaggedHash(*plan.scene().meshes[key.mesh]);
   return hashCombine(hashCombine(plan.paint(key.look).look.hash(), mesh),
                      uint64_t{key.slot} << 1 | uint64_t{key.mirrored});
 }
@@ -53,6 +57,9 @@ class ChunkWriter {
   explicit ChunkWriter(const DrawPlan& plan) : plan_(plan), builder_(plan) {}
 
   void write(std::span<const LeafRange> ranges) {
+    uint64_t leaves = 0;
+    for (const LeafRange& r : ranges) leaves += r.to - r.from;
+    bytes_.reserve(leaves * kBytesALeaf);
     size_t open = 0;
     forEachLeafIn(plan_, ranges,
                   [&](const Leaf& leaf, const Frame& world, uint64_t number, size_t range) {
@@ -82,9 +89,9 @@ class ChunkWriter {
       if (batch.second.geometry->indices.empty()) continue;
       batches.emplace_back(nameOf(plan_, batch.first), &batch);
     }
-    // Keys count as this scene happens to; names do not.
-    std::sort(batches.begin(), batches.end(),
-              [](const auto& a, const auto& b) { return a.first < b.first; });
+    // Keys count as this scene happens to; names do not. Two meshes that differ in tags have one.
+    std::stable_sort(batches.begin(), batches.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
     append(bytes_, static_cast<uint32_t>(batches.size()));
     for (const auto& [name, batch] : batches) {
       pieces_.push_back({name, batch->first, bytes_.size()});

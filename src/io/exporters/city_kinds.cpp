@@ -195,7 +195,7 @@ CityParts::CityParts(const Scene& scene) {
     const bool isOfLot = l.source < sources_.size() && sources_[l.source].isLot;
     if (isLot || isOfLot) bodies_[l.mesh] = heightOfBody(*scene.meshes[l.mesh]);
   }
-  for (const auto& set : scene.attributeSets) readAttributes(set);
+  for (const auto& set : scene.attributeSets) readAttributes(scene, set);
   findWholes(scene);
 }
 
@@ -206,10 +206,11 @@ uint32_t CityParts::numberOf(const std::string& text) {
   return at->second;
 }
 
-void CityParts::readAttributes(const std::vector<AttributeValue>& set) {
+void CityParts::readAttributes(const Scene& scene, const std::vector<uint32_t>& set) {
   CityPart& part = setParts_.emplace_back();
-  for (const AttributeValue& a : set) {
+  for (const uint32_t place : set) {
     work();
+    const AttributeValue& a = scene.attributeValues[place];
     // Attributes of imported files have the name of the import before a dot.
     const size_t dot = a.name.rfind('.');
     const std::string_view name =

@@ -113,7 +113,7 @@ class CityParts {
 
  private:
   enum class Whole : uint8_t { Empty, One, Mixed };
-  void readAttributes(const std::vector<AttributeValue>& set);
+  void readAttributes(const Scene& scene, const std::vector<uint32_t>& set);
   void findWholes(const Scene& scene);
   uint32_t numberOf(const std::string& text);
 

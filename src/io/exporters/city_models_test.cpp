@@ -27,7 +27,9 @@ class City : public SceneBuilder {
  public:
   City() { scene.attributeSets.emplace_back(); }
   uint32_t says(const std::string& attribute, const std::string& value) {
-    scene.attributeSets.push_back({{attribute, {{PlainValue::Kind::Text, 0, value}}, 0, 0}});
+    const auto place = static_cast<uint32_t>(scene.attributeValues.size());
+    scene.attributeValues.push_back({attribute, {{PlainValue::Kind::Text, 0, value}}, 0, 0});
+    scene.attributeSets.push_back({place});
     return static_cast<uint32_t>(scene.attributeSets.size() - 1);
   }
   Leaf& box(const std::string& named, const Vec3& at, const Vec3& size, uint32_t attributes = 0) {

@@ -13,6 +13,7 @@
 #include "base/hash.h"
 #include "base/parallel.h"
 #include "base/work.h"
+#include "geom/mesh/untagged_hash.h"
 #include "scene/scene.h"
 
 namespace gable {
@@ -27,7 +28,7 @@ constexpr uint64_t kMostOfAnItem = 128;
 constexpr uint32_t kFewLeaves = 768, kManyLeaves = 2048;
 /// Beyond the few, one item of so many ends a chunk.
 constexpr uint64_t kItemsAnEnd = 8;
-constexpr size_t kLeavesATask = 1 << 14;
+constexpr size_t kItemsATask = 1 << 14;
 
 uint64_t hashOf(const Vec3& v) {
   return hashCombine(hashCombine(hashDouble(v.x), hashDouble(v.y)), hashDouble(v.z));
@@ -41,9 +42,10 @@ uint64_t hashOf(const Frame& f) {
 
 class Cutter {
  public:
-  Cutter(const DrawPlan& plan, unsigned jobs) : plan_(plan), scene_(plan.scene()) {
+  Cutter(const DrawPlan& plan, unsigned jobs) : plan_(plan), scene_(plan.scene()), jobs_(jobs) {
     hashLists();
-    hashLeaves(jobs);
+    hashMeshes();
+    hashLeaves();
     hashPrototypes();
   }
 
@@ -79,25 +81,34 @@ class Cutter {
     }
   }
 
+  // Calls task(i) for each i under count, several threads a run of them each.
+  template <class Task>
+  void forEach(size_t count, Task&& task) {
+    WorkMeter* const meter = detail::workState.meter;
+    parallelFor((count + kItemsATask - 1) / kItemsATask, jobs_, [&](size_t part, unsigned) {
+      std::optional<WorkScope> scope;
+      if (meter) scope.emplace(*meter);
+      const size_t end = std::min(count, (part + 1) * kItemsATask);
+      work(kItemsATask);
+      for (size_t i = part * kItemsATask; i < end; ++i) task(i);
+    });
+  }
+
+  void hashMeshes() {
+    meshes_.resize(scene_.meshes.size());
+    forEach(meshes_.size(), [&](size_t i) { meshes_[i] = untaggedHash(*scene_.meshes[i]); });
+  }
+
   uint64_t leafHash(const Leaf& leaf) const {
-    const uint64_t mesh =
-        hashCombine(scene_.meshes[leaf.mesh]->sharedHash(), uint64_t{plan_.isOften(leaf)});
+    const uint64_t mesh = hashCombine(meshes_[leaf.mesh], uint64_t{plan_.isOften(leaf)});
     const uint64_t paints = leaf.materials < lists_.size() ? lists_[leaf.materials] : 0;
     return hashCombine(hashCombine(hashOf(leaf.frame), hashOf(leaf.scale)),
                        hashCombine(mesh, paints));
   }
 
-  void hashLeaves(unsigned jobs) {
+  void hashLeaves() {
     leaves_.resize(scene_.leaves.size());
-    WorkMeter* const meter = detail::workState.meter;
-    const size_t tasks = (leaves_.size() + kLeavesATask - 1) / kLeavesATask;
-    parallelFor(tasks, jobs, [&](size_t task, unsigned) {
-      std::optional<WorkScope> scope;
-      if (meter) scope.emplace(*meter);
-      const size_t end = std::min(leaves_.size(), (task + 1) * kLeavesATask);
-      work(kLeavesATask);
-      for (size_t i = task * kLeavesATask; i < end; ++i) leaves_[i] = leafHash(scene_.leaves[i]);
-    });
+    forEach(leaves_.size(), [&](size_t i) { leaves_[i] = leafHash(scene_.leaves[i]); });
   }
 
   // A prototype comes behind those that it holds.
@@ -139,7 +150,8 @@ class Cutter {
 
   const DrawPlan& plan_;
   const Scene& scene_;
-  std::vector<uint64_t> lists_, leaves_, prototypes_;
+  const unsigned jobs_;
+  std::vector<uint64_t> lists_, meshes_, leaves_, prototypes_;
   DrawChunk open_;
   std::vector<DrawChunk> chunks_;
 };

@@ -11,6 +11,7 @@
 #include <map>
 
 #include "base/number.h"
+#include "base/work.h"
 #include "io/exporters/quaternion.h"
 #include "io/gltf_format.h"
 #include "scene/flatten.h"
@@ -22,6 +23,8 @@ using namespace gltf;
 
 // The widest text that a coordinate can have.
 constexpr float kWidestFloat = -1.17549435e-38f;
+/// work() of a node or a primitive: its text takes about a microsecond.
+constexpr size_t kWorkOfText = 64;
 constexpr float kWidestStep = static_cast<float>(VertexGrid::kMostSteps);
 
 void writeRounded(JsonWriter& w, double v, int decimals) {
@@ -63,6 +66,7 @@ std::vector<GltfDocument::Group> GltfDocument::groupsOf(const ScenePlan& plan, u
   std::vector<Group> groups;
   std::map<uint32_t, size_t> at;
   const std::vector<PlannedChild>& children = plan.units()[unit].children;
+  work(children.size());
   for (uint32_t c = 0; c < children.size(); ++c) {
     const uint32_t shown = children[c].unit;
     const bool groupable = instanced && plan.units()[shown].children.empty();
@@ -248,6 +252,7 @@ void GltfDocument::writeGroup(JsonWriter& w, const Group& g, uint32_t accessor) 
 void GltfDocument::writeTree(JsonWriter& w, uint32_t unit, const NodePlace& place, uint64_t index) {
   std::vector<OpenUnit> open;
   const auto begin = [&](uint32_t u, const NodePlace& at, uint64_t number) {
+    work(kWorkOfText);
     const uint64_t first = number + (apart_[u] ? 2 : 1);
     open.push_back({u, first, instanceBase_[u], 0, groupsOf(plan_, u, instanced_)});
     writeNode(w, open.back(), at);
@@ -321,6 +326,7 @@ void GltfDocument::writeMeshes(JsonWriter& w, const GltfContent& content) const 
     if (!nameOf(u).empty()) w.field("name", nameOf(u));
     w.key("primitives").beginArray();
     for (const GltfPrimitive& p : content.meshes[u]) {
+      work(kWorkOfText);
       if (p.indexCount == 0) continue;
       const VertexLayout& l = materials_.layout(p.variant);
       if (p.first) {
@@ -372,6 +378,7 @@ void GltfDocument::writeAccessors(JsonWriter& w, const GltfContent& content, boo
     // Where the indices begin within those of the run.
     uint32_t indices = 0;
     for (const GltfPrimitive& p : content.meshes[u]) {
+      work(kWorkOfText);
       if (p.indexCount == 0) continue;
       const VertexLayout& l = materials_.layout(p.variant);
       const uint32_t count = p.vertexCount;
@@ -429,6 +436,7 @@ void GltfDocument::writeViews(JsonWriter& w, const GltfContent& content, bool ro
   }
   for (size_t u = 0; u < content.meshes.size(); ++u) {
     for (const GltfPrimitive& p : content.meshes[u]) {
+      work(kWorkOfText);
       if (p.indexCount == 0 || !p.first) continue;
       const uint32_t stride = materials_.layout(p.variant).stride(content.grids[u].on);
       view(p.vertexOffset, uint64_t{p.vertexCount} * stride, stride, kArrayBuffer);

@@ -68,12 +68,14 @@ bool isLarge(const Scene& scene) {
   constexpr uint64_t kVertex = 24, kTriangle = 6;
   std::vector<uint64_t> meshBytes(scene.meshes.size());
   for (size_t m = 0; m < meshBytes.size(); ++m) {
+    work(scene.meshes[m]->faces.size() + 1);
     for (const SlotTally& s : slotTallies(*scene.meshes[m])) {
       meshBytes[m] += kVertex * s.corners + kTriangle * s.triangles;
     }
   }
   uint64_t bytes = 0;
   for (const Leaf& l : scene.leaves) {
+    work();
     bytes += meshBytes[l.mesh];
     if (bytes > WriteOptions::kMostFloat) return true;
   }
@@ -185,6 +187,7 @@ const GltfWriter::MeshInfo& GltfWriter::infoOf(uint32_t mesh) {
   MeshInfo& info = meshInfo_[mesh];
   if (!info.known) {
     const Mesh& m = *scene_.meshes[mesh];
+    work(m.corners.size());
     info.known = true;
     info.bounds = m.bounds();
     for (int s = 0; s < kUvSets; ++s) info.uvMask |= m.hasUv(s) ? 1u << s : 0;
@@ -241,6 +244,7 @@ void GltfWriter::makeDraws(uint32_t unit) {
   for (const PlannedLeaf& p : unit_.leaves) {
     const Leaf& leaf = scene_.leaves[p.leaf];
     const MeshInfo& info = infoOf(leaf.mesh);
+    work(info.slots.size());
     for (const SlotTally& s : info.slots) {
       const uint32_t material = materialIndexOf(scene_, leaf, s.slot);
       const uint32_t v = variantOf(material, info, uvFormOf(material, info, p));
@@ -319,6 +323,7 @@ VertexGrid GltfWriter::gridFor(double largestScale) {
   if (!materials_.isCompact()) return {};
   Box3 all;
   for (const PlannedLeaf& p : unit_.leaves) {
+    work();
     const Box3 box = boundsOf(p);
     if (!box.empty()) all.include(box);
   }

@@ -120,6 +120,9 @@ class EqualPrototypes {
   std::vector<uint32_t> same_;
 };
 
+/// Of a pass through what a prototype holds.
+uint64_t workOf(const Prototype& p) { return uint64_t{p.leafCount} + p.instanceCount + 1; }
+
 }  // namespace
 
 std::vector<uint32_t> firstOfEqual(const Scene& scene) { return EqualPrototypes(scene).find(); }
@@ -172,13 +175,17 @@ void ScenePlan::findEqual() {
 }
 
 void ScenePlan::measureMeshes() {
-  for (const MeshRef& m : scene_.meshes) meshBytes_.push_back(bytesOf(*m));
+  for (const MeshRef& m : scene_.meshes) {
+    work(m->faces.size() + 1);
+    meshBytes_.push_back(bytesOf(*m));
+  }
 }
 
 // Sorted, one of each key that occurs at least twice.
 void ScenePlan::findAlone() {
   if (std::none_of(meshBytes_.begin(), meshBytes_.end(), isLarge)) return;
   for (const Leaf& l : scene_.leaves) {
+    work();
     if (isLarge(meshBytes_[l.mesh])) alone_.push_back(aloneKey(l));
   }
   std::sort(alone_.begin(), alone_.end());
@@ -196,6 +203,7 @@ void ScenePlan::findAlone() {
 void ScenePlan::measure() {
   firstLarge_.push_back(0);
   for (const Prototype& p : scene_.prototypes) {
+    work(workOf(p));
     double bytes = 0;
     for (uint32_t i = 0; i < p.leafCount; ++i) {
       const Leaf& l = scene_.leaves[p.firstLeaf + i];
@@ -214,6 +222,7 @@ void ScenePlan::measure() {
   for (size_t p = placements_.size(); p-- > 0;) {
     if (placements_[p] == 0) continue;
     const Prototype& prototype = scene_.prototypes[p];
+    work(workOf(prototype));
     for (uint32_t i = 0; i < prototype.instanceCount; ++i) {
       placements_[shownBy(scene_.instances[prototype.firstInstance + i])] += placements_[p];
     }
@@ -301,6 +310,7 @@ void ScenePlan::countNodes() {
     const Cost alone = aloneIn(p);
     double nodes = alone.nodes, bytes = ownBytes_[p] - alone.bytes;
     const Prototype& prototype = scene_.prototypes[p];
+    work(workOf(prototype));
     for (uint32_t i = 0; i < prototype.instanceCount; ++i) {
       const uint32_t child = shownBy(scene_.instances[prototype.firstInstance + i]);
       if (isTiny(child)) {
@@ -330,6 +340,7 @@ void ScenePlan::decide() {
   }
   for (size_t p = count; p-- > 0;) {
     if (references[p] == 0) continue;
+    work(workOf(scene_.prototypes[p]));
     const bool tiny = isTiny(p) && roots[p] < 2;
     if (!share_ || whole_) {
       use_[p] = Use::Solid;
@@ -380,6 +391,7 @@ void ScenePlan::weigh() {
   for (size_t p = 0; p < within_.size(); ++p) {
     if (use_[p] == Use::None) continue;
     const Prototype& prototype = scene_.prototypes[p];
+    work(workOf(prototype));
     const Cost alone = aloneIn(p);
     within_[p] = {alone.nodes, ownBytes_[p] - alone.bytes};
     for (uint32_t i = 0; i < prototype.instanceCount && use_[p] != Use::Solid; ++i) {
@@ -545,6 +557,7 @@ void ScenePlan::cut(uint32_t unit, double widest, size_t mostCells) {
   std::vector<Box3> boxes;
   Box3 reach;
   for (const PlannedLeaf& p : all.leaves) {
+    work();
     boxes.push_back(boundsOf(p, all));
     reach.include(boxes.back());
   }
@@ -618,6 +631,7 @@ std::vector<PlannedChild> ScenePlan::childrenOf(const Unit& unit) const {
 
 void ScenePlan::measureContents() {
   for (const Prototype& p : scene_.prototypes) {
+    work(workOf(p));
     double solid = 1.0 + p.leafCount, open = solid, children = 0;
     for (uint32_t i = 0; i < p.instanceCount; ++i) {
       const uint32_t child = shownBy(scene_.instances[p.firstInstance + i]);

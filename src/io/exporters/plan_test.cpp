@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <vector>
 
+#include "base/work.h"
 #include "io/exporters/surface.h"
 #include "io/testing/scenes.h"
 
@@ -344,6 +346,30 @@ TEST(DrawSurface, scaledNormalsStayOutside) {
   EXPECT_EQ(scaledNormal({0, 1, 0}, {3, 0, 2}), (Vec3{0, 1, 0}));
   EXPECT_EQ(scaledNormal({0, 1, 0}, {1, -2, 1}), (Vec3{0, -1, 0}));
   EXPECT_EQ(scaledNormal({1, 0, 0}, {3, 0, 2}), (Vec3{1, 0, 0}));
+}
+
+// A large scene is gone through again and again until its nodes are few enough: who wishes to stop
+// does not wait for all of that.
+TEST(ScenePlan, looksAtLimitsOnEachPass) {
+  class Looks final : public WorkMeter {
+   public:
+    bool look(uint64_t, uint64_t) override { return ++count < most; }
+    int count = 0, most = 1000;
+  };
+  SceneBuilder b;
+  std::vector<uint32_t> walls;
+  for (int i = 0; i < 400; ++i) walls.push_back(wall(b, 20 + i % 20));
+  for (int i = 0; i < 800; ++i) {
+    b.instance(walls[static_cast<size_t>(i % 400)], Frame::moved({0, 5.0 * i, 0}));
+  }
+  b.root("house", b.prototype("House"), Frame{});
+  Looks looks;
+  const WorkScope scope(looks);
+  const ScenePlan plan(b.scene, {true, 40});
+  EXPECT_GT(looks.count, 50);
+  looks = {};
+  looks.most = 30;
+  EXPECT_THROW(ScenePlan(b.scene, {true, 40}), Unwinding);
 }
 
 TEST(ScenePlan, wholeRootsAreOneUnitEach) {
