@@ -9,6 +9,7 @@ of models carries a number that is none. Files are made in FOLDER. Run from the 
 import itertools
 import json
 import os
+import re
 import resource
 import shutil
 import signal
@@ -22,7 +23,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "written"))
 import model_check  # noqa: E402
 
 GABLE, FOLDER = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
-DONE, WRONG, USAGE, FILE = 0, 1, 2, 3
+ROOT = Path(__file__).resolve().parents[2]
+DONE, WRONG, USAGE, FILE, LIMIT = 0, 1, 2, 3, 4
 
 
 class Case(unittest.TestCase):
@@ -88,10 +90,32 @@ class Options(Case):
                         ["dataset", "x.cga", *small, *noPlace, "-o", "set", "--count", "1", "--cameras", "1"]):
             self.run_gable(*command, status=USAGE, says="the sun's place is not known")
 
+    def testEachStatusOfTheReferenceIsGiven(self):
+        page = (ROOT / "docs/reference/command-line.md").read_text(encoding="utf-8")
+        table = page.partition("## Exit status")[2].partition("\n## ")[0]
+        self.put("good.cga", "Lot --> extrude(9) X.")
+        self.put("other.cga", "Lot --> extrude(8) X.")
+        self.put("wrong.cga", "Lot --> extrude(")
+        self.put("wrong.test", "== aCase\nrule:\n  Lot --> X.\nexpect:\n  names Y\n")
+        self.put("endless.cga", "Lot --> [ X. ] Lot")
+        for name in ("good", "other"):
+            self.run_gable("generate", f"{name}.cga", "-o", f"{name}.obj")
+        given = {DONE: (["check", "good.cga"], ["diff", "good.obj", "good.obj"]),
+                 WRONG: (["check", "wrong.cga"], ["generate", "wrong.cga", "-o", "a.obj"], ["test", "wrong.test"],
+                         ["diff", "good.obj", "other.obj"]),
+                 USAGE: (["generate", "good.cga"], ["check", "good.cga", "--no-such-option"]),
+                 FILE: (["check", "absent.cga"], ["generate", "good.cga", "-o", "good.cga/a.obj"]),
+                 LIMIT: (["generate", "endless.cga", "-o", "part.obj", "--max-shapes", "100"],)}
+        self.assertEqual([int(n) for n in re.findall(r"^\| (\d+) \|", table, re.M)], list(given))
+        for status, commands in given.items():
+            for command in commands:
+                with self.subTest(command=command):
+                    self.run_gable(*command, status=status)
+        self.assertTrue((self.folder / "part.obj").exists(), "what was made until then is written")
+
     def testTheNotationOfATextIsGuessed(self):
-        root = Path(__file__).resolve().parents[2]
         for name, option in (("gbbg/gbbg.gbbg", "gbbg"), ("park/square.park", "park"), ("progen3d/progen3d.grammar", "progen3d")):
-            self.put("x.txt", (root / "examples" / name).read_text())
+            self.put("x.txt", (ROOT / "examples" / name).read_text())
             for command in (["check", "x.txt"], ["convert", "x.txt"], ["generate", "x.txt", "-o", "a.glb"]):
                 told = self.run_gable(*command, status=WRONG, says=f"--dialect {option}")
                 self.assertEqual(told.count("error: "), 1, told)
@@ -100,7 +124,7 @@ class Options(Case):
             self.put("x.txt", text)
             self.assertNotIn("rules-notation", self.run_gable("check", "x.txt", status=WRONG))
         # A name that says CGA is believed while the mistakes are few.
-        self.put("x.cga", (root / "examples/gbbg/gbbg.gbbg").read_text())
+        self.put("x.cga", (ROOT / "examples/gbbg/gbbg.gbbg").read_text())
         self.assertEqual(self.run_gable("check", "x.cga", status=WRONG, says="--dialect gbbg").count("error: "), 1)
         self.put("x.cga", "START -> A(1)\n")
         self.assertNotIn("rules-notation", self.run_gable("check", "x.cga", status=WRONG))
@@ -109,7 +133,7 @@ class Options(Case):
         # A name may say another notation than the text.
         texts = {"cga": "attr h = 3\nLot --> extrude(h) comp(f) { side : Wall. | top : Roof. }\n"}
         for name, option in (("gbbg/gbbg.gbbg", "gbbg"), ("park/square.park", "park"), ("progen3d/progen3d.grammar", "progen3d")):
-            texts[option] = (root / "examples" / name).read_text()
+            texts[option] = (ROOT / "examples" / name).read_text()
         for ending, own in (("gbbg", "gbbg"), ("park", "park"), ("grammar", "progen3d")):
             for notation, text in texts.items():
                 if notation == own:
