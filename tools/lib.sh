@@ -129,6 +129,7 @@ page_packages() {
   cmp -s "$root/studio/package-lock.json" "$root/studio/node_modules/installed.json" ||
     step "Installing what the studio's page needs" page-packages.log install_page_packages
 }
+build_page() { (cd "$root/studio" && npm run --silent build); }
 
 # What makes the documentation's site and looks at it.
 install_site_packages() {

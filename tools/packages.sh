@@ -4,9 +4,9 @@
 #
 # tools/packages.sh [BUILD]: makes the packages of Debian and the archive from a build folder (default:
 # build/release, which is built where it is missing), and tries them: installed in a fresh Debian 12
-# (debootstrap), the program derives, draws and completes, a program is built against the library, and
-# Python imports its module; the archive runs in the same root without the packages. Needs root. Packages
-# lie in out/packages. PACKAGES_ROOT is where the root lies (build/packages-root; one that is there is
+# (debootstrap), the program derives, draws, completes and shows the studio's page, which is built where it is
+# missing, a program is built against the library, and Python derives the same model; the archive runs in the
+# same root without the packages. Needs root. Packages lie in out/packages. PACKAGES_ROOT is where the root lies (build/packages-root; one that is there is
 # used again).
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -19,6 +19,11 @@ bare=$(realpath -m "${PACKAGES_ROOT:-build/packages-root}")
 out=$root/out/packages
 install debootstrap dpkg-dev gzip binutils
 if [ $# = 0 ]; then build release all gable_python || exit 1; fi
+if [ ! -s build/studio/index.html ]; then
+  node_usable || install nodejs npm
+  page_packages || exit 1
+  step "Building the studio's page" page.log build_page || exit 1
+fi
 rm -rf "$out"
 make_packages() {
   cpack --config "$build/CPackConfig.cmake" -G DEB -B "$out" -D CPACK_DEBIAN_COMPRESSION_TYPE="${PACKAGES_COMPRESSION:-xz}" &&

@@ -31,7 +31,28 @@ test "$(gable --version | sed -n 's/^examples: //p')" = /usr/share/gable/example
 test -s /usr/share/man/man1/gable-generate.1.gz || grep -q path-exclude /etc/dpkg/dpkg.cfg.d/* 2>/dev/null
 bash -c 'source /usr/share/bash-completion/completions/gable
   COMP_WORDS=(gable rend); COMP_CWORD=1; _gable; test "${COMPREPLY[*]}" = render'
-python3 -c 'import gable; print("python:", gable.Rules.load if hasattr(gable.Rules, "load") else gable.Rules)'
+python3 - <<'PYTHON'
+import gable
+
+house = gable.derive(gable.Rules.load("house.cga"), gable.Shapes.lot(24, 18))
+house.write("python.glb")
+print("python:", len(house), "leaves")
+PYTHON
+cmp python.glb package.glb
+echo "-- the studio's page"
+gable studio . --port 0 >studio.url 2>studio.log &
+studio=$!
+for _ in $(seq 50); do [ ! -s studio.url ] && sleep 0.2; done
+python3 - "$(head -n 1 studio.url)" <<'PYTHON'
+import sys
+from urllib.request import urlopen
+
+with urlopen(sys.argv[1], timeout=20) as answer:
+    page = answer.read().decode()
+assert "<script" in page, page[:200]
+print("page:", len(page), "characters")
+PYTHON
+kill "$studio"
 cat >use.c <<'C'
 #include <gable/c.h>
 #include <stdio.h>
