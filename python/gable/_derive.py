@@ -55,5 +55,6 @@ def derive(
             seconds=seconds,
             memory=memory,
             progress=progress,
-        )
+        ),
+        len(shapes),
     )

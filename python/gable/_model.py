@@ -100,8 +100,9 @@ class Report:
 class Model:
     """A model: derived by rules, or read from a file."""
 
-    def __init__(self, raw: Any):
+    def __init__(self, raw: Any, shapes: int = 0):
         self._raw = checked(raw)
+        self._shapes = shapes
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Model:
@@ -131,10 +132,14 @@ class Model:
 
     @property
     def prints(self) -> list[str]:
+        """What rules printed, line by line."""
         return self._raw.prints()
 
     def attributes(self, shape: int = 0) -> dict[str, Any]:
-        """The attributes of an initial shape, as its rules found them."""
+        """The attributes of an initial shape, as its rules found them. Raises IndexError where the
+        model was made of fewer shapes; one that was read from a file was made of none."""
+        if not 0 <= shape < self._shapes:
+            raise IndexError(f"the model was made of {self._shapes} shapes, none of number {shape}")
         return self._raw.attributes(shape)
 
     def mesh(self, most_leaves: int = _MOST_LEAVES) -> Mesh:

@@ -108,14 +108,17 @@ class Rules:
 
     @property
     def attributes(self) -> list[Attribute]:
+        """Those that a caller may set, of imported files too."""
         return [Attribute(**a) for a in self._raw.attributes()]
 
     @property
     def rules(self) -> list[Rule]:
+        """Those of the file and of all that it imports."""
         return [Rule(**r) for r in self._raw.rules()]
 
     @property
     def styles(self) -> list[str]:
+        """Names for `style`."""
         return self._raw.styles()
 
     @property

@@ -127,6 +127,9 @@ class Shapes:
         return self._raw.size()
 
     def outline(self, shape: int) -> Outline:
+        """A shape in plan, by its number from 0; raises IndexError where there is none."""
+        if not 0 <= shape < len(self):
+            raise IndexError(f"there are {len(self)} shapes, none of number {shape}")
         return Outline(*self._raw.outline(shape))
 
     @property

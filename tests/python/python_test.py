@@ -102,6 +102,28 @@ class BadInput(unittest.TestCase):
                 call()
 
 
+class Numbers(unittest.TestCase):
+    def test_of_no_shape_are_told(self):
+        lot = gable.Shapes.lot(9, 9)
+        model = gable.derive(gable.Rules.parse(BOX), lot)
+        self.assertEqual(len(model.attributes(0)), len(gable.Rules.parse(BOX).attributes))
+        for number in (1, 7, -1):
+            with self.assertRaisesRegex(IndexError, f"made of 1 shapes, none of number {number}"):
+                model.attributes(number)
+            with self.assertRaisesRegex(IndexError, f"there are 1 shapes, none of number {number}"):
+                lot.outline(number)
+
+
+class Documented(unittest.TestCase):
+    def test_all_that_is_public_has_a_docstring(self):
+        for name in gable.__all__:
+            value = getattr(gable, name)
+            self.assertTrue(value.__doc__, name)
+            for member, each in vars(value).items() if isinstance(value, type) else ():
+                if not member.startswith("_") and (callable(each) or isinstance(each, (property, classmethod))):
+                    self.assertTrue(each.__doc__, f"{name}.{member}")
+
+
 class Shapes(unittest.TestCase):
     def test_of_geometries(self):
         shapes = gable.Shapes.of_geometries([Square()], [{"height": 7}])
