@@ -52,6 +52,7 @@ constexpr ForeignWord kWords[] = {
     {"-=", Operator, {}, "values stay as they are: set(a, a - 1) gives the shape another one"},
     {"*=", Operator, {}, "values stay as they are: set(a, a * 2) gives the shape another one"},
     {"/=", Operator, {}, "values stay as they are: set(a, a / 2) gives the shape another one"},
+    {":=", Operator, {}, "values stay as they are: set(a, 3) gives the shape another one"},
     {"++", Operator, {}, "values stay as they are: set(a, a + 1) gives the shape another one"},
 
     {"->", Arrow, "-->", "write '-->' behind the head of a rule, ':' behind a size or a selector"},

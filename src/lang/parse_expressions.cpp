@@ -368,6 +368,14 @@ NodeId Parser::parseArgument(bool matched) {
   return parseExpression();
 }
 
+// Whether another argument follows without a comma, as in color(0.5 0.5 0.5): each is reported.
+bool Parser::commaMissing(bool matched) {
+  if (!matched || (!is(TokenKind::Number) && !is(TokenKind::String))) return false;
+  unexpected("',' between arguments", "write ',' before it");
+  fix(spanAt(endOfLast()), ",");
+  return true;
+}
+
 NodeId Parser::parseArguments() {
   const Token open = current();
   advance();
@@ -375,7 +383,7 @@ NodeId Parser::parseArguments() {
   Nodes items;
   while (!panic_ && !is(TokenKind::RParen) && (matched || !declarationHere())) {
     items.push_back(parseArgument(matched));
-    if (!accept(TokenKind::Comma)) break;
+    if (!accept(TokenKind::Comma) && !commaMissing(matched)) break;
     if (is(TokenKind::RParen)) unexpected("another argument after ','");
   }
   if (!accept(TokenKind::RParen)) {

@@ -129,11 +129,33 @@ bool Parser::takeForeignDeclaration() {
   return true;
 }
 
-// a += 1 and a++ behind other operations.
+// h := 5 on a line of its own, where a declaration may stand.
+bool Parser::assignsHere() const {
+  return isName(current()) && ahead(1).kind == TokenKind::Assign && beginsLine(current()) &&
+         indentOf(current().begin).value_or(1) == 0;
+}
+
+// The sign of a declaration, behind the name.
+void Parser::reportAssign(const Token& name, bool hasWord) {
+  error("unexpected-token", spanOf(current()), "':=' declares no value here",
+        hasWord ? "write '='" : remedyOf(*foreignWord(ForeignUse::Declaration, "var")));
+  fix({file_, hasWord ? current().begin : name.begin, current().end},
+      hasWord ? "=" : "attr " + std::string(textOf(name)) + " =");
+}
+
+// a := 1, a += 1 and a++ behind other operations.
 bool Parser::takeAssignment() {
+  if (!isName(current())) return false;
   const Token& sign = ahead(1);
+  if (sign.kind == TokenKind::Assign) {
+    error("unexpected-token", spanOf(sign), "':=' is no operator",
+          remedyOf(*foreignWord(ForeignUse::Operator, ":=")));
+    at_ += 2;
+    if (!atEnd()) parseExpression();
+    return true;
+  }
   const Token& second = ahead(2);
-  if (!isName(current()) || sign.end != second.begin) return false;
+  if (sign.end != second.begin) return false;
   const bool counts = sign.kind == TokenKind::Plus && second.kind == TokenKind::Plus &&
                       !onOneLine(second, ahead(3));
   const bool assigns = second.kind == TokenKind::Equal &&

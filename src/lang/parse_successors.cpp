@@ -108,7 +108,7 @@ bool Parser::wrongSeparatorHere() const {
 
 // Adds one successor; false where the sequence ends.
 bool Parser::parseSuccessor(Nodes& items) {
-  if (declarationHere()) return false;
+  if (declarationHere() || assignsHere()) return false;
   if (is(Keyword::Else)) {
     if (place_.inChoice) return false;
     unexpected("an operation or a rule", "'else' belongs to a 'case' or to weights before it");

@@ -571,7 +571,10 @@ NodeId Parser::parseDefinition(NodeId annotations, Keyword keyword) {
   }
 
   if (keyword == Keyword::Attr || keyword == Keyword::Const) takeTagName(name, n);
-  if (keyword == Keyword::Attr) n.kind = NodeKind::Attr;
+  const bool hasWord = keyword == Keyword::Attr || keyword == Keyword::Const;
+  const bool assigns = is(TokenKind::Assign);
+  if (assigns) reportAssign(name, hasWord);
+  if (keyword == Keyword::Attr || (assigns && !hasWord)) n.kind = NodeKind::Attr;
   if (keyword == Keyword::Const) n.kind = NodeKind::Const;
   NodeId value = kNoNode;
   const bool valueHere = is(TokenKind::Number) || is(TokenKind::String) || is(Keyword::True) ||
@@ -580,8 +583,8 @@ NodeId Parser::parseDefinition(NodeId annotations, Keyword keyword) {
     unexpected("'=' and a value after the name", "write '=' before the value");
     fix(spanAt(current().begin), "= ");
     value = parseExpression();
-  } else if (expect(TokenKind::Equal, "and a value after the name") || accept(TokenKind::Colon) ||
-             accept(TokenKind::Assign)) {
+  } else if (accept(TokenKind::Assign) || expect(TokenKind::Equal, "and a value after the name") ||
+             accept(TokenKind::Colon)) {
     value = parseExpression();
   } else {
     value = missing();
@@ -624,7 +627,7 @@ void Parser::parseDeclaration() {
              headAt(at_ + 1) == Head::Rule) {
     advance();
     declarations_.push_back(parseDefinition(attached, keyword));
-  } else if (headAt(at_) != Head::None) {
+  } else if (headAt(at_) != Head::None || assignsHere()) {
     declarations_.push_back(parseDefinition(attached, Keyword::None));
   } else if (isName(current()) && ahead(1).kind == TokenKind::Colon &&
              ahead(2).kind == TokenKind::String) {

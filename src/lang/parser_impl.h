@@ -195,6 +195,7 @@ class Parser {
   NodeId parseBinary(int minPrecedence);
   NodeId parseUnary();
   NodeId parsePostfix();
+  bool commaMissing(bool matched);
   NodeId parsePrimary();
   NodeId parseNameExpression();
   NodeId parseArray();
@@ -214,6 +215,8 @@ class Parser {
   bool resultHere() const;
   bool takeForeignStatement();
   bool takeForeignDeclaration();
+  bool assignsHere() const;
+  void reportAssign(const Token& name, bool hasWord);
   bool takeAssignment();
   bool takeForeign();
   size_t behindHead(size_t index) const;

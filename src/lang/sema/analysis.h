@@ -221,7 +221,8 @@ class Analysis {
   std::string wordOfOther(const CallTarget& target, NodeId node,
                           const std::vector<const ParamSpec*>& params) const;
   std::string formHint(const CallTarget& target, size_t count) const;
-  std::string mismatchHint(NodeId node, const ParamSpec& param, ValueType type) const;
+  std::string mismatchHint(std::string_view target, NodeId node, const ParamSpec& param,
+                           ValueType type) const;
   bool isKnownValue(std::string_view name) const;
   template <class Info>
   uint32_t chooseOverload(const std::vector<uint32_t>& candidates, const std::vector<Info>& infos,

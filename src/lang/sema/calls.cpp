@@ -271,8 +271,9 @@ std::string Analysis::formHint(const CallTarget& target, size_t count) const {
               : std::string());
 }
 
-// What to write in the place of a value of the wrong type.
-std::string Analysis::mismatchHint(NodeId node, const ParamSpec& param, ValueType type) const {
+// What to write in the place of a value of the wrong type, in a call of `target`.
+std::string Analysis::mismatchHint(std::string_view target, NodeId node, const ParamSpec& param,
+                                   ValueType type) const {
   const bool drawn = param.type == ParamType::Drawn && type == ValueType::FloatArray;
   if (drawn && tree().kind(node) == NodeKind::Array && tree().children(node).size() == 1) {
     const std::span<const NodeId> row = tree().children(tree().children(node)[0]);
@@ -297,6 +298,7 @@ std::string Analysis::mismatchHint(NodeId node, const ParamSpec& param, ValueTyp
   const ValueType wanted = valueType(param.type);
   const bool list = type == ValueType::FloatArray || type == ValueType::StringArray ||
                     type == ValueType::BoolArray;
+  if (list && target == "len") return "write size(array) for the number of its values";
   if (named && list) return "take one value of the list, such as " + named->name + "[0]";
   if (named && wanted != ValueType::Null) return typeRemedy(*named, wanted);
   return "it is: " + docText(param);
@@ -358,7 +360,7 @@ ValueType Analysis::visitArgumentFor(const CallTarget& target, std::span<const N
   reportMisfit(target, "type-mismatch", value,
                quote(params[0]->name) + " of " + quote(target.name) + " is a " + typeName(type) +
                    ", not a " + typeName(valueType(params[0]->type)),
-               wordHint.empty() ? mismatchHint(value, *params[0], type) : wordHint);
+               wordHint.empty() ? mismatchHint(target.name, value, *params[0], type) : wordHint);
   isFit = false;
   return type;
 }

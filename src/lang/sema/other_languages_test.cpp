@@ -26,6 +26,7 @@ constexpr Form kForms[] = {
     {"-=", ForeignUse::Operator, "attr a = 3\nLot --> A(1) a -= 2 * a\nA(b) --> B."},
     {"*=", ForeignUse::Operator, "attr a = 3\nLot --> [ a *= 2 ] A."},
     {"/=", ForeignUse::Operator, "attr a = 3\nLot --> a /= 2\n  A."},
+    {":=", ForeignUse::Operator, "attr a = 3\nLot --> a := 4 A."},
     {"++", ForeignUse::Operator, "attr a = 3\nLot --> a++\n  A."},
     {"->", ForeignUse::Arrow, "Lot -> A."},
     {"=>", ForeignUse::Arrow, "Lot => A.\nB(n) => A."},
