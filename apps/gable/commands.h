@@ -117,10 +117,14 @@ struct RenderArguments {
   bool watch = false;
 };
 int runRender(const RenderArguments& arguments);
-/// An exit status other than kExitDone, with a message, when an option of the picture is wrong.
-/// Draws a model with a line of progress.
+using PictureProgress = std::function<void(size_t done, size_t total)>;
+/// Progress of one of several pictures, told as pixels of them all; empty where `shown` is.
+PictureProgress pixelsOf(const PictureProgress& shown, const gable::PictureSettings& settings,
+                         size_t frame = 0, size_t frames = 1);
+/// Draws a model with a bar of progress.
 int drawPicture(const gable::Model& model, const std::string& path,
                 gable::PictureSettings settings);
+/// An exit status other than kExitDone, with a message, when an option of the picture is wrong.
 int pictureSettings(const RenderArguments& arguments, gable::PictureSettings& settings);
 /// A turntable or a walk: numbered pictures, or a film of them.
 int drawFrames(const gable::Model& model, const RenderArguments& arguments,

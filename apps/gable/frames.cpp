@@ -69,7 +69,7 @@ int drawFrames(const gable::Model& model, const RenderArguments& arguments,
   std::error_code code;
   if (film) std::filesystem::create_directories(files.folder, code);
 
-  Progress progress("drawing");
+  Progress progress("drawing", "pixels");
   const auto callback = progress.callback();
   const gable::PictureMaker maker(model, settings.limits);
   print(maker.diagnostics());
@@ -80,11 +80,7 @@ int drawFrames(const gable::Model& model, const RenderArguments& arguments,
       path.place(frame, each);
     else
       each.turn = settings.turn + 360.0 * static_cast<double>(frame) / static_cast<double>(frames);
-    if (callback) {
-      each.progress = [&, frame](size_t done, size_t total) {
-        callback(frame * total + done, frames * total);
-      };
-    }
+    each.progress = pixelsOf(callback, each, frame, frames);
     const gable::WriteResult written = maker.write(files.path(frame), each);
     // What is said of one frame is said of all.
     if (frame == 0 || !written.ok) print(written.diagnostics);

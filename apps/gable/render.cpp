@@ -228,10 +228,19 @@ bool isModel(const std::string& path) {
   return std::find(std::begin(kDrawn), std::end(kDrawn), extensionOf(path)) != std::end(kDrawn);
 }
 
+PictureProgress pixelsOf(const PictureProgress& shown, const gable::PictureSettings& settings,
+                         size_t frame, size_t frames) {
+  if (!shown) return {};
+  const size_t pixels = static_cast<size_t>(settings.width) * static_cast<size_t>(settings.height);
+  return [=](size_t done, size_t total) {
+    shown(frame * pixels + pixels * done / total, frames * pixels);
+  };
+}
+
 int drawPicture(const gable::Model& model, const std::string& path,
                 gable::PictureSettings settings) {
-  Progress progress("drawing");
-  settings.progress = progress.callback();
+  Progress progress("drawing", "pixels");
+  settings.progress = pixelsOf(progress.callback(), settings);
   const gable::WriteResult written = model.picture(path, settings);
   print(written.diagnostics);
   if (gable::hasErrors(written.diagnostics)) return statusOf(written.diagnostics, kExitFile);
@@ -244,8 +253,8 @@ namespace {
 /// The picture with its layers in a folder.
 int drawWithLayers(const gable::Model& model, const RenderArguments& arguments,
                    gable::PictureSettings settings) {
-  Progress progress("drawing");
-  settings.progress = progress.callback();
+  Progress progress("drawing", "pixels");
+  settings.progress = pixelsOf(progress.callback(), settings);
   const gable::PictureMaker maker(model, settings.limits);
   const gable::PictureData data = maker.draw(settings);
   print(data.diagnostics);

@@ -132,7 +132,7 @@ class Bar(Case):
         command = [str(GABLE), "render", "still.cga", "--size", "320x240", "--samples", "64", "-o", "a.png"]
         status, shown = on_terminal(command, self.folder)
         self.assertEqual(status, DONE, shown)
-        self.assertRegex(shown, r"drawing  \[#*-*\] +\d+ %.* left")
+        self.assertRegex(shown, r"drawing  \[#*-*\] +\d+ %  [\d.]+ pixels/s  .* left")
         self.assertTrue(shown.endswith("\r\x1b[K"), shown[-200:])
         for line in re.split(r"[\r\n]", shown):
             self.assertLess(len(re.sub(r"\x1b\[[0-9;]*[mK]", "", line)), 100)
