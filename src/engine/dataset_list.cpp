@@ -4,32 +4,13 @@
 // The list of all items, put together from their item.json one after the other.
 
 #include "base/files.h"
-#include "base/json.h"
+#include "base/json_copy.h"
 #include "engine/dataset.h"
 #include "gable/files.h"
 
 namespace gable {
 
 namespace {
-
-void copy(JsonWriter& w, const JsonValue& v) {
-  switch (v.kind()) {
-    case JsonValue::Kind::Null: w.null(); return;
-    case JsonValue::Kind::Bool: w.value(v.boolean(false)); return;
-    case JsonValue::Kind::Number: w.value(v.number(0)); return;
-    case JsonValue::Kind::Text: w.value(v.text()); return;
-    case JsonValue::Kind::Array:
-      w.beginArray();
-      for (const JsonValue& each : v.items()) copy(w, each);
-      w.endArray();
-      return;
-    case JsonValue::Kind::Object:
-      w.beginObject();
-      for (const auto& [name, value] : v.members()) copy(w.key(name), value);
-      w.endObject();
-      return;
-  }
-}
 
 class List {
  public:

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "base/json_copy.h"
 #include "lsp/server.h"
 #include "lsp/uri.h"
 
@@ -154,7 +155,7 @@ void LanguageServer::Impl::completionResolve(const JsonValue& params, JsonWriter
   for (const auto& [name, value] : params.members()) {
     if (name == "documentation" && !page.empty()) continue;
     json.key(name);
-    lsp::copy(json, value);
+    copy(json, value);
   }
   if (!page.empty()) {
     json.key("documentation").beginObject().key("kind").value("markdown");
@@ -277,7 +278,7 @@ void LanguageServer::Impl::codeAction(const JsonValue& params, JsonWriter& json)
       json.key("diagnostics").beginArray();
       // The client's own form of the mistake, so that it knows which one this mends.
       for (const JsonValue& d : params["context"]["diagnostics"].items()) {
-        if (d["code"].text() == a.code && lsp::rangeOf(d["range"]) == a.range) lsp::copy(json, d);
+        if (d["code"].text() == a.code && lsp::rangeOf(d["range"]) == a.range) copy(json, d);
       }
       json.endArray().key("edit");
       writeEdits(json, a.edits);

@@ -84,27 +84,6 @@ void write(JsonWriter& json, const Range& r) {
   json.endObject();
 }
 
-void copy(JsonWriter& json, const JsonValue& v) {
-  switch (v.kind()) {
-    case JsonValue::Kind::Null: json.null(); return;
-    case JsonValue::Kind::Bool: json.value(v.boolean(false)); return;
-    case JsonValue::Kind::Text: json.value(v.text()); return;
-    case JsonValue::Kind::Number: json.value(v.number(0)); return;
-    case JsonValue::Kind::Array:
-      json.beginArray();
-      for (const JsonValue& item : v.items()) copy(json, item);
-      json.endArray();
-      return;
-    case JsonValue::Kind::Object: break;
-  }
-  json.beginObject();
-  for (const auto& [name, item] : v.members()) {
-    json.key(name);
-    copy(json, item);
-  }
-  json.endObject();
-}
-
 }  // namespace lsp
 
 LanguageServer::Impl::Impl(std::function<double()> clock, const std::string& project,

@@ -144,8 +144,6 @@ language::Position positionOf(const JsonValue& v);
 language::Range rangeOf(const JsonValue& v);
 void write(JsonWriter& json, language::Position p);
 void write(JsonWriter& json, const language::Range& r);
-/// A value as it came.
-void copy(JsonWriter& json, const JsonValue& v);
 /// The legend of semantic tokens, by Highlight::Kind.
 extern const char* const kTokenTypes[];
 extern const size_t kTokenTypeCount;

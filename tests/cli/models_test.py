@@ -169,6 +169,15 @@ class Models(Case):
             self.run_gable("generate", "x.cga", "--shapes", "lots.geojson", "-o", "b.usdz", "--instancing", word,
                            status=USAGE, says=f"has no instancing '{word}'")
 
+    def testAFeatureALineIsReadAsTheModel(self):
+        self.put("again.cga", 'Lot --> print(geometry.nFaces) X.\n')
+        told = []
+        for name in ("a.city.json", "a.city.jsonl"):
+            self.written(name)
+            told.append(self.run_gable("generate", "again.cga", "--shapes", name, "--start", "Lot", "-o", "again.obj"))
+        self.assertGreater(len(told[0]), 20)
+        self.assertEqual(told[0], told[1])
+
     def testALotThatStandsIsABuilding(self):
         self.put("lot.cga", "Lot --> extrude(9)\n")
         self.run_gable("generate", "lot.cga", "-o", "lot.city.json")

@@ -117,6 +117,35 @@ TEST(CityJson, wrongObjectsAreLeftOutAndNamed) {
   }
 }
 
+// Each line has vertices of its own, by the transform of the first.
+TEST(CityJson, aFeatureALineIsOneModel) {
+  const auto feature = [](const std::string& id, const std::string& vertices) {
+    return R"({"type":"CityJSONFeature","id":")" + id + R"(","CityObjects":{")" + id +
+           R"(":{"type":"Building","geometry":[)" + kHouse + R"(]}},"vertices":)" + vertices +
+           "}\n";
+  };
+  std::string head = model("", "[]");
+  const std::string low =
+      "[[50,0,0],[52,0,0],[52,6,0],[50,6,0],[50,0,2],[52,0,2],[52,6,2],[50,6,2],[50,3,3],[52,3,3]]";
+  const auto read = [](const std::string& text) {
+    return readMapFeatures(text, {"a.city.jsonl", {}, false});
+  };
+  auto map = read(head + "\n" + feature("a", kVertices) + "\n" + feature("b", low));
+  ASSERT_TRUE(map.ok()) << map.error().message;
+  ASSERT_EQ(map->features.size(), 2u);
+  EXPECT_NEAR(areaOf(map->features[0]), 60, 1e-9);
+  EXPECT_NEAR(areaOf(map->features[1]), 12, 1e-9);
+  EXPECT_EQ(map->features[1].tag("height"), "3");
+  for (const auto& [text, why] :
+       {std::pair(feature("a", kVertices), "line 1: it does not begin with a CityJSON object"),
+        std::pair(head + "\n" + head, "line 2: it is no CityJSONFeature"),
+        std::pair(head + "\n{", "line 2: "), std::pair(std::string(" \n"), "it has no line")}) {
+    map = read(text);
+    ASSERT_FALSE(map.ok());
+    EXPECT_NE(map.error().message.find(why), std::string::npos) << map.error().message;
+  }
+}
+
 TEST(CityJson, readsTheModelsThatAreAbout) {
   const char* shared = std::getenv("GABLE_SHARED");
   if (!shared) GTEST_SKIP() << "GABLE_SHARED names no folder";

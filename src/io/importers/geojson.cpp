@@ -21,6 +21,7 @@
 #include "io/geo/geo_frames.h"
 #include "io/geo/transverse_mercator.h"
 #include "io/importers/city_json.h"
+#include "io/importers/city_json_sequence.h"
 #include "io/importers/city_json_shapes.h"
 #include "io/importers/feature_pieces.h"
 #include "io/importers/geojson_edges.h"
@@ -83,7 +84,6 @@ class GeoJsonReader {
   void addLine(const JsonValue& coordinates);
   void buildLines(MeshBuilder& b, std::vector<double>& widths) const;
   void addAllLines();
-  Result<JsonValue> rootOf(std::string_view text) const;
   Result<ShapeFile> readRoot(const JsonValue& root);
   bool readPoints(const JsonValue& coordinates, std::vector<Vec2>& out);
   bool readRing(const JsonValue& coordinates, Ring& out);
@@ -617,20 +617,9 @@ Error GeoJsonReader::empty() const {
 }
 
 Result<ShapeFile> GeoJsonReader::read(std::string_view text) {
-  const Result<JsonValue> root = rootOf(text);
+  const Result<JsonValue> root = parseGeometries(text, path_);
   if (!root.ok()) return root.error();
   return readRoot(root.value());
-}
-
-Result<JsonValue> GeoJsonReader::rootOf(std::string_view text) const {
-  Result<JsonValue> root = parseJson(text);
-  if (!root.ok()) {
-    return Error{"shapes-broken", "'" + path_ + "': " + root.error().message, root.error().hint};
-  }
-  if (!root.value()["type"].isText()) {
-    return Error{"shapes-broken", "'" + path_ + "' is JSON but not GeoJSON: it has no type", {}};
-  }
-  return root;
 }
 
 Result<ShapeFile> GeoJsonReader::readRoot(const JsonValue& root) {
@@ -708,7 +697,7 @@ void GeoJsonReader::handOn(const ShapeSink& sink) {
 
 Result<ShapeFile> GeoJsonReader::readPieces(FeaturePieces& file, const ShapeSink& sink) {
   if (auto e = measurePieces(file)) return *e;
-  const Result<JsonValue> root = rootOf(file.rest());
+  const Result<JsonValue> root = parseGeometries(file.rest(), path_);
   if (!root.ok()) return root.error();
   if (root.value()["type"].text() != "FeatureCollection") {
     // One feature or geometry is no list that could be read in pieces.

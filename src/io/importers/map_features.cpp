@@ -12,6 +12,7 @@
 #include "io/geo/geo_frames.h"
 #include "io/geo/transverse_mercator.h"
 #include "io/importers/city_json.h"
+#include "io/importers/city_json_sequence.h"
 #include "io/importers/geojson_root.h"
 #include "io/importers/map_file.h"
 #include "io/importers/other_tags.h"
@@ -301,20 +302,13 @@ Result<MapFeatures> readMapFeatures(std::string_view bytes, const AssetOptions& 
     if (!text.ok()) return text.error();
     converted = std::move(*text);
     bytes = converted;
-  } else if (extension != "geojson" && extension != "json") {
+  } else if (extension != "geojson" && extension != "json" && !isCityJsonSequence(options.path)) {
     return Error{
         "shapes-unknown", "'" + options.path + "' is no map that can be read",
         "use GeoJSON, CityJSON, OpenStreetMap, GeoPackage, FlatGeobuf, a shapefile, KML or DXF"};
   }
-  const Result<JsonValue> root = parseJson(bytes);
-  if (!root.ok()) {
-    return Error{"shapes-broken", "'" + options.path + "': " + root.error().message,
-                 root.error().hint};
-  }
-  if (!root.value()["type"].isText()) {
-    return Error{
-        "shapes-broken", "'" + options.path + "' is JSON but not GeoJSON: it has no type", {}};
-  }
+  const Result<JsonValue> root = parseGeometries(bytes, options.path);
+  if (!root.ok()) return root.error();
   Reader reader(box);
   if (isCityJson(root.value())) {
     if (auto e = reader.addModel(root.value(), options.path)) return *e;

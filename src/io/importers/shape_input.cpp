@@ -8,6 +8,7 @@
 #include "base/number.h"
 #include "base/temporary_folder.h"
 #include "geom/mesh/cleanup.h"
+#include "io/importers/city_json_sequence.h"
 #include "io/importers/converted.h"
 #include "io/importers/gltf_meshes.h"
 #include "io/importers/map_file.h"
@@ -82,7 +83,8 @@ std::optional<Error> layerMistake(const std::string& path, const FeatureFilter& 
 Result<ShapeFile> readShapes(std::string_view bytes, const AssetOptions& options,
                              const FeatureFilter& filter) {
   const std::string extension = extensionOf(options.path);
-  const bool isGeoJson = extension == "geojson" || extension == "json";
+  const bool isGeoJson =
+      extension == "geojson" || extension == "json" || isCityJsonSequence(options.path);
   if (auto e = layerMistake(options.path, filter)) return *e;
   if (!filter.key.empty() && !isMap(options.path) && !isGeoJson) {
     return Error{"shapes-layer", "'" + options.path + "' has no properties to choose by",
@@ -98,10 +100,6 @@ Result<ShapeFile> readShapes(std::string_view bytes, const AssetOptions& options
     return model.ok() ? readObjShapes(model->obj, model->options) : model.error();
   }
   if (extension == "gltf" || extension == "glb") return readGltfShapes(bytes, options);
-  if (options.path.ends_with(".city.jsonl")) {
-    return Error{"shapes-unknown", "'" + options.path + "' is CityJSONSeq, which is not read",
-                 "make it a .city.json, as cjio does"};
-  }
   return Error{"shapes-unknown", "'" + options.path + "' is no file of shapes that can be read",
                "use GeoJSON, CityJSON, OpenStreetMap, GeoPackage, FlatGeobuf, a shapefile, KML, "
                "DXF, OBJ or glTF"};
