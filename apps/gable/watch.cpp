@@ -53,6 +53,7 @@ int watch(const Watched& watched) {
     std::fflush(stdout);
     // What the command line says wrongly, no save mends.
     if (status == kExitUsage) return status;
+    if (status != kExitDone) tell("waiting for a change; Ctrl-C ends\n");
     FileTimes after = watched.times();
     if (watched.forget) watched.forget(before, after);
     while (!*cancelFlag() && after == before) {

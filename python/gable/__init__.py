@@ -18,7 +18,7 @@ from gable._dataset import Dataset, dataset
 from gable._derive import derive
 from gable._gable import version as __version__
 from gable._messages import Error, Message
-from gable._model import Leaf, Material, Mesh, Model, Parts, Report
+from gable._model import Leaf, Material, Mesh, Model, Parts, Report, ShapeReports
 from gable._rules import Attribute, Rule, Rules
 from gable._shapes import Outline, Shapes
 
@@ -36,6 +36,7 @@ __all__ = [
     "Report",
     "Rule",
     "Rules",
+    "ShapeReports",
     "Shapes",
     "dataset",
     "derive",

@@ -97,6 +97,17 @@ class Report:
     mean: float | None = field(default=None)
 
 
+@dataclass(frozen=True)
+class ShapeReports:
+    """What the rules of one initial shape reported."""
+
+    name: str
+    id: str
+    """What its file calls it; empty where it does not."""
+    reports: dict[str, Report]
+    """By key."""
+
+
 class Model:
     """A model: derived by rules, or read from a file."""
 
@@ -129,6 +140,14 @@ class Model:
     def reports(self) -> dict[str, Report]:
         """What rules reported, by key."""
         return {key: Report(**r) for key, r in self._raw.reports().items()}
+
+    @property
+    def reports_by_shape(self) -> list[ShapeReports]:
+        """The same for each initial shape, in their order: the floor area of a parcel."""
+        return [
+            ShapeReports(name, id, {key: Report(**r) for key, r in reports.items()})
+            for name, id, reports in self._raw.reports_by_shape()
+        ]
 
     @property
     def prints(self) -> list[str]:

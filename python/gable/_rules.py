@@ -13,7 +13,7 @@ from typing import Any
 from gable import _gable
 from gable._messages import Message, checked, messages_of, path_text
 
-Annotation = tuple[str, dict[str, str]]
+Annotation = tuple[str, dict[str, Any]]
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,13 @@ class Attribute:
     """"float", "bool", "string", or one of these with "[]"."""
     hidden: bool
     annotations: list[Annotation]
-    """Name and arguments: ("Range", {"min": "0", "max": "10"})."""
+    """Name and arguments: ("Range", {"min": "0", "max": "10"}). Those without a name are a list:
+    ("Enum", {"": ["flat", "gable"]})."""
+
+    @property
+    def choices(self) -> list[str]:
+        """The values of @Enum; empty without it."""
+        return [v for name, arguments in self.annotations if name == "Enum" for v in arguments.get("", [])]
 
     @property
     def range(self) -> tuple[float, float] | None:
@@ -33,7 +39,7 @@ class Attribute:
         for name, arguments in self.annotations:
             if name != "Range":
                 continue
-            values = list(arguments.values())
+            values = arguments.get("", [])
             low, high = arguments.get("min", values[0] if values else None), arguments.get("max")
             if high is None and len(values) > 1:
                 high = values[1]

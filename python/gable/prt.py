@@ -218,7 +218,9 @@ def _report_of(model: gable.Model) -> dict[str, Any]:
 
 def _annotation_of(annotation: Annotation) -> list[Any]:
     name, arguments = annotation
-    return [f"@{name}", *([key or NO_KEY, _value_of(value)] for key, value in arguments.items())]
+    pairs = [(key, value) for key, value in arguments.items() if key]
+    pairs += [(NO_KEY, value) for value in arguments.get("", [])]
+    return [f"@{name}", *([key, _value_of(value)] for key, value in pairs)]
 
 
 def _value_of(text: str) -> Any:

@@ -193,9 +193,9 @@ py::dict statisticsOf(const Model& model) {
   return d;
 }
 
-py::dict reportsOf(const Model& model) {
+py::dict reportsOf(const std::vector<ReportSummary>& reports) {
   py::dict out;
-  for (const ReportSummary& r : model.statistics().reports) {
+  for (const ReportSummary& r : reports) {
     py::dict d;
     d["count"] = r.count;
     if (r.numbers) {
@@ -282,7 +282,15 @@ void bindModel(py::module_& m) {
       .def("end", [](const Model& model) { return endName(model.end()); })
       .def("messages", [](const Model& model) { return messagesOf(model.diagnostics()); })
       .def("statistics", &statisticsOf)
-      .def("reports", &reportsOf)
+      .def("reports", [](const Model& model) { return reportsOf(model.statistics().reports); })
+      .def("reports_by_shape",
+           [](const Model& model) {
+             py::list out;
+             for (const ShapeReports& s : model.reportsByShape()) {
+               out.append(py::make_tuple(s.name, s.id, reportsOf(s.reports)));
+             }
+             return out;
+           })
       .def("attributes",
            [](const Model& model, size_t shape) {
              py::dict d;

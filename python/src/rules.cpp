@@ -11,7 +11,15 @@ py::list annotationsOf(const std::vector<AttributeInfo::Annotation>& annotations
   py::list out;
   for (const auto& a : annotations) {
     py::dict arguments;
-    for (const auto& [name, value] : a.arguments) arguments[py::str(name)] = value;
+    py::list unnamed;
+    for (const auto& [name, value] : a.arguments) {
+      if (name.empty()) {
+        unnamed.append(value);
+      } else {
+        arguments[py::str(name)] = value;
+      }
+    }
+    if (!unnamed.empty()) arguments[py::str()] = unnamed;
     out.append(py::make_tuple(a.name, arguments));
   }
   return out;

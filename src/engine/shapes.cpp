@@ -15,6 +15,7 @@
 #include "engine/footprint.h"
 #include "engine/guard.h"
 #include "geom/mesh/face_plane.h"
+#include "geom/region/clean.h"
 #include "geom/region/region.h"
 
 namespace gable {
@@ -73,6 +74,11 @@ Error tooFar() {
           "coordinates are metres, at most 1e9 from the origin"};
 }
 
+bool isOnALine(const Ring& ring) {
+  return std::all_of(ring.begin(), ring.end(),
+                     [&](const Vec2& v) { return cross(ring[1] - ring[0], v - ring[0]) == 0; });
+}
+
 std::shared_ptr<Shapes::Impl> ofPolygon(const Polygon& p, const std::string& name) {
   for (const auto& ring : p.holes) {
     for (const Vec2& v : ring) {
@@ -81,6 +87,14 @@ std::shared_ptr<Shapes::Impl> ofPolygon(const Polygon& p, const std::string& nam
   }
   for (const Vec2& v : p.outer) {
     if (!usable(v.x) || !usable(v.y)) return refused(tooFar());
+  }
+  if (p.outer.size() < 3 || (signedArea(p.outer) == 0 && isOnALine(p.outer))) {
+    return refused({"shape-mesh", "the polygon has no area: its points lie on a line",
+                    "give the corners in order, without those in between"});
+  }
+  if (!isSimple(p.outer)) {
+    return refused({"shape-mesh", "the outline of the polygon crosses itself",
+                    "give the corners in order around it"});
   }
   auto impl = std::make_shared<Shapes::Impl>();
   ShapeInput input;

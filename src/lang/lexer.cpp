@@ -291,12 +291,13 @@ class Lexer {
   }
 
   // A string may run over several lines. In a file where a quote is missing all end with their
-  // line, so that the mistake is told where it stands.
+  // line, so that the mistake is told where it stands, and so does one that would hold a rule.
   void lexString() {
     size_t end = stringEnd(at_, true);
     if (end < text_.size() && text_[end] == '\n') {
       if (!runsOver_) runsOver_ = stringsAreClosed(at_);
-      if (*runsOver_) end = stringEnd(at_, false);
+      const size_t last = *runsOver_ ? stringEnd(at_, false) : end;
+      if (text_.substr(end, last - end).find("-->") == std::string_view::npos) end = last;
     }
     if (end >= text_.size() || text_[end] != '"') {
       if (end > at_ + 1 && text_[end - 1] == '\r') --end;

@@ -100,6 +100,9 @@ TEST(Lexer, reportsWhatIsNoToken) {
 TEST(Lexer, stringsMayRunOverLines) {
   EXPECT_EQ(words("a = \"one\n  two\" b"), "a = \"one\n  two\" b");
   EXPECT_EQ(codes("a = \"one\n  two\" // say \"\nb = \"c\""), "");
+  // One that would hold a rule lacks its quote, wherever the next one stands.
+  EXPECT_EQ(codes("A --> color(\"red) X.\nB --> set(a, \"b\") set(c, \"d) Y.\n"),
+            "unterminated-string\nunterminated-string\n");
   // Where a quote is missing, all end with their line.
   EXPECT_EQ(codes("a = \"one\nb = \"two\"\nc = \"three\""), "unterminated-string\n");
 }

@@ -54,6 +54,9 @@ class Rules(unittest.TestCase):
         rules = gable.Rules.parse("@Range(min=1, max=9)\nattr h = 3\nattr names = [\"a\"]\n@StartRule\nLot --> extrude(h)\n")
         self.assertEqual([(a.name, a.type, a.range) for a in rules.attributes],
                          [("h", "float", (1.0, 9.0)), ("names", "string[]", None)])
+        season = gable.Rules.parse('@Enum("spring", "autumn", restricted=true)\nattr season = "spring"\nLot --> X.\n')
+        self.assertEqual(season.attributes[0].choices, ["spring", "autumn"])
+        self.assertEqual(rules.attributes[0].choices, [])
         self.assertEqual(rules.start_rule, "Lot")
         self.assertEqual([(r.name, r.start, r.line) for r in rules.rules], [("Lot", True, 5)])
         self.assertEqual(rules.styles, ["Default"])
@@ -96,6 +99,8 @@ class BadInput(unittest.TestCase):
             (ValueError, "width is a number of metres above 0, not -1", lambda: gable.Shapes.lot(-1, 2)),
             (ValueError, "depth is a number of metres above 0, not nan", lambda: gable.Shapes.lot(1, float("nan"))),
             (ValueError, "at least 3 points, not 2", lambda: gable.Shapes.polygon([(0, 0), (1, 1)])),
+            (gable.Error, "crosses itself", lambda: gable.Shapes.polygon([(0, 0), (9, 9), (9, 0), (0, 9)])),
+            (gable.Error, "has no area", lambda: gable.Shapes.polygon([(0, 0), (5, 0), (9, 0)])),
             (ValueError, "a picture is a .png, not 'x.xyz'", lambda: gable.derive(rules, lot).picture("x.xyz")),
         ):
             with self.subTest(words), self.assertRaisesRegex(kind, re.escape(words)):
@@ -125,6 +130,12 @@ class Documented(unittest.TestCase):
 
 
 class Shapes(unittest.TestCase):
+    def test_reports_by_shape(self):
+        lots = gable.Shapes.joined([gable.Shapes.lot(9, 9), gable.Shapes.lot(4, 4)]).with_attributes([{"height": 3}, {"height": 5}])
+        model = gable.derive(gable.Rules.parse(BOX), lots)
+        self.assertEqual([s.reports["h"].sum for s in model.reports_by_shape], [3, 5])
+        self.assertEqual(model.reports["h"].sum, 8)
+
     def test_of_geometries(self):
         shapes = gable.Shapes.of_geometries([Square()], [{"height": 7}])
         self.assertEqual(len(shapes), 2)
