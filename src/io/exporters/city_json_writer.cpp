@@ -139,6 +139,8 @@ class CityJsonWriter {
   std::map<uint32_t, Template> templates_;
   WriteReport report_;
   uint64_t openBuildings_ = 0, failedBuildings_ = 0;
+  /// The lowest point of the buildings of a shape.
+  double foot_ = 0;
 };
 
 void CityJsonWriter::flush(bool whole) {
@@ -285,7 +287,9 @@ void CityJsonWriter::openGeometry(const char* type, const char* lod) {
 
 void CityJsonWriter::writeFull(const CityObjectContent& object, const CityContent& content,
                                const char* lod, bool upOnly) {
-  const double base = boxOf(object, content).min.y;
+  const double own = boxOf(object, content).min.y;
+  // What belongs to a building, such as a chimney, has its ground.
+  const double base = isOfBuilding(object.key.kind) ? std::min(own, foot_) : own;
   Surfaces said;
   openGeometry("MultiSurface", lod);
   forEachLeafOf(object, content, [&](const Leaf& leaf, const Frame& world, const PlacedPart& p) {
@@ -354,10 +358,12 @@ void CityJsonWriter::writeShells(const std::vector<BuildingShell>& shells, const
 // The bodies of all buildings and their parts.
 CityJsonWriter::Bodies CityJsonWriter::bodiesOf(const CityContent& content) {
   Bodies out;
+  foot_ = std::numeric_limits<double>::infinity();
   for (const CityObjectContent& object : content.objects) {
     if (!isBuildingKey(object.key)) continue;
     Body& body = out[&object];
     body.box = boxOf(object, content);
+    foot_ = std::min(foot_, body.box.min.y);
     std::vector<TopFace> roofs;
     forEachLeafOf(object, content, [&](const Leaf& leaf, const Frame& world, const PlacedPart& p) {
       if (isOpening(p.kind) || p.kind == CityKind::Closure) return;

@@ -239,6 +239,22 @@ TEST(CityJsonWriter, whatIsCalledLotIsLandWhereItIsFlat) {
   EXPECT_EQ(model["CityObjects"]["soil"]["type"].text(), "LandUse");
 }
 
+TEST(CityJsonWriter, whatStandsOnARoofHasNoGround) {
+  City c;
+  c.box("Wall", {0, 0, 0}, {9, 6, 9});
+  c.box("Chimney", {4, 6.5, 4}, {1, 2, 1});
+  c.root("a", c.prototype("House"), Frame{});
+  const JsonValue model = written(c.scene, "chimney.city.json");
+  for (const auto& [id, object] : model["CityObjects"].members()) {
+    if (object["type"].text() != "BuildingInstallation") continue;
+    const auto types = typesOf(object["geometry"].at(0));
+    EXPECT_EQ(types.count("GroundSurface"), 0u);
+    EXPECT_EQ(types.count("OuterCeilingSurface"), 1u);
+    return;
+  }
+  ADD_FAILURE() << "there is no chimney";
+}
+
 TEST(CityJsonWriter, aFeatureALine) {
   City c = houseWithGarden();
   c.box("Water", {0, 0, 0}, {5, 1, 5});
