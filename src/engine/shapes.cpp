@@ -74,9 +74,13 @@ Error tooFar() {
           "coordinates are metres, at most 1e9 from the origin"};
 }
 
-bool isOnALine(const Ring& ring) {
-  return std::all_of(ring.begin(), ring.end(),
-                     [&](const Vec2& v) { return cross(ring[1] - ring[0], v - ring[0]) == 0; });
+// What an outline has that rules may make nothing of; empty where it is sound.
+std::string mistakeOf(const Ring& ring) {
+  const bool isOnALine = std::all_of(ring.begin(), ring.end(), [&](const Vec2& v) {
+    return cross(ring[1] - ring[0], v - ring[0]) == 0;
+  });
+  if (isOnALine && signedArea(ring) == 0) return "the polygon has no area";
+  return isSimple(ring) ? "" : "the outline of the polygon touches or crosses itself";
 }
 
 std::shared_ptr<Shapes::Impl> ofPolygon(const Polygon& p, const std::string& name) {
@@ -88,19 +92,22 @@ std::shared_ptr<Shapes::Impl> ofPolygon(const Polygon& p, const std::string& nam
   for (const Vec2& v : p.outer) {
     if (!usable(v.x) || !usable(v.y)) return refused(tooFar());
   }
-  if (p.outer.size() < 3 || (signedArea(p.outer) == 0 && isOnALine(p.outer))) {
-    return refused({"shape-mesh", "the polygon has no area: its points lie on a line",
-                    "give the corners in order, without those in between"});
-  }
-  if (!isSimple(p.outer)) {
-    return refused({"shape-mesh", "the outline of the polygon crosses itself",
-                    "give the corners in order around it"});
-  }
   auto impl = std::make_shared<Shapes::Impl>();
   ShapeInput input;
   input.name = name;
   input.mesh = meshOf({p}, groundFrame());
   impl->footprints.push_back(footprint(std::move(input)));
+  const std::string mistake = p.outer.size() < 3 ? std::string() : mistakeOf(p.outer);
+  if (!mistake.empty()) {
+    impl->diagnostics.push_back(diagnosticOf({Severity::Warning,
+                                              "shape-mesh",
+                                              Span{},
+                                              mistake,
+                                              "give the corners in order around the polygon",
+                                              {},
+                                              {}},
+                                             Sources{}));
+  }
   return impl;
 }
 
