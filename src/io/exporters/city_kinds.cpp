@@ -136,39 +136,6 @@ void forEachWord(std::string_view name, Take&& take) {
   }
 }
 
-bool isWordOfTrim(const std::string& word) {
-  return std::find(std::begin(kTrims), std::end(kTrims), word) != std::end(kTrims);
-}
-
-}  // namespace
-
-CityKind cityKindOfIdentifier(std::string_view name) {
-  CityKind kind = CityKind::Unknown;
-  forEachWord(ownName(name), [&](const std::string& word) {
-    kind = kindOfWord(word);
-    return kind != CityKind::Unknown;
-  });
-  return kind;
-}
-
-bool isLot(std::string_view name) {
-  bool is = false;
-  forEachWord(ownName(name), [&](const std::string& word) {
-    is = word == "lot";
-    return kindOfWord(word) != CityKind::Unknown;
-  });
-  return is;
-}
-
-bool isTrim(std::string_view name) {
-  bool is = false;
-  forEachWord(ownName(name), [&](const std::string& word) {
-    is = is || isWordOfTrim(word);
-    return is;
-  });
-  return is && cityKindOfIdentifier(name) == CityKind::Unknown;
-}
-
 // Of a mesh that looks down somewhere, in the frame of its leaf; else 0.
 double heightOfBody(const Mesh& mesh) {
   constexpr double kDown = -0.5;
@@ -179,21 +146,49 @@ double heightOfBody(const Mesh& mesh) {
   return 0;
 }
 
+bool isWordOfTrim(const std::string& word) {
+  return std::find(std::begin(kTrims), std::end(kTrims), word) != std::end(kTrims);
+}
+
+}  // namespace
+
+CityWord cityWordOf(std::string_view name) {
+  CityWord out;
+  forEachWord(ownName(name), [&](const std::string& word) {
+    out = {kindOfWord(word), word == "lot"};
+    return out.kind != CityKind::Unknown;
+  });
+  return out;
+}
+
+CityKind cityKindOfIdentifier(std::string_view name) { return cityWordOf(name).kind; }
+
+bool isTrim(std::string_view name) {
+  bool is = false;
+  forEachWord(ownName(name), [&](const std::string& word) {
+    is = is || isWordOfTrim(word);
+    return is;
+  });
+  return is && cityKindOfIdentifier(name) == CityKind::Unknown;
+}
+
 CityParts::CityParts(const Scene& scene) {
   for (const std::string& name : scene.names) {
     work(name.size());
-    names_.push_back({cityKindOfIdentifier(name), isLot(name)});
+    names_.push_back(cityWordOf(name));
     trims_.push_back(isTrim(name));
   }
   for (const SourcePlace& s : scene.sources) {
     work(s.rule.size());
-    sources_.push_back({cityKindOfIdentifier(s.rule), isLot(s.rule)});
+    sources_.push_back(cityWordOf(s.rule));
   }
   bodies_.resize(scene.meshes.size());
   for (const Leaf& l : scene.leaves) {
-    const bool isLot = l.name < names_.size() && names_[l.name].isLot;
-    const bool isOfLot = l.source < sources_.size() && sources_[l.source].isLot;
-    if (isLot || isOfLot) bodies_[l.mesh] = heightOfBody(*scene.meshes[l.mesh]);
+    work();
+    const bool isLot = (l.name < names_.size() && names_[l.name].isLot) ||
+                       (l.source < sources_.size() && sources_[l.source].isLot);
+    std::optional<double>& height = bodies_[l.mesh];
+    if (isLot && !height) height = heightOfBody(*scene.meshes[l.mesh]);
   }
   for (const auto& set : scene.attributeSets) readAttributes(scene, set);
   findWholes(scene);
@@ -230,9 +225,9 @@ void CityParts::readAttributes(const Scene& scene, const std::vector<uint32_t>& 
 }
 
 // A body that is higher than soil is thick is what stands on the lot.
-CityKind CityParts::kindOf(const Name& name, const Leaf& leaf) const {
+CityKind CityParts::kindOf(const CityWord& name, const Leaf& leaf) const {
   constexpr double kSoil = 1;
-  const bool stands = name.isLot && bodies_[leaf.mesh] * std::abs(leaf.scale.y) > kSoil;
+  const bool stands = name.isLot && bodies_[leaf.mesh].value_or(0) * std::abs(leaf.scale.y) > kSoil;
   return stands ? CityKind::Unknown : name.kind;
 }
 

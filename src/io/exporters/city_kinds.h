@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -76,12 +77,17 @@ bool isOpening(CityKind kind);
 
 /// A kind by a name of its row, whatever the case of its letters; Unknown for any other text.
 CityKind cityKindNamed(std::string_view name);
-/// The kind that the last telling word of an identifier says, without the import before its dot;
-/// Unknown where none does.
+/// What the last telling word of an identifier says, without the import before its dot.
+struct CityWord {
+  /// Unknown where no word tells.
+  CityKind kind = CityKind::Unknown;
+  /// The word is "lot". Rules begin with a lot, so it says land of what is flat alone:
+  /// `Lot --> extrude(9)` is a house.
+  bool isLot = false;
+};
+CityWord cityWordOf(std::string_view name);
+/// Its kind alone.
 CityKind cityKindOfIdentifier(std::string_view name);
-/// True where the word "lot" says that it is land. Rules begin with a lot, so the word says it of
-/// what is flat alone: `Lot --> extrude(9)` is a house.
-bool isLot(std::string_view name);
 /// True where a name has only words of what windows have, and doors, railings and roofs as well,
 /// such as Frame: the rule's name counts before it, unless that is a wall.
 bool isTrim(std::string_view name);
@@ -117,16 +123,12 @@ class CityParts {
   void findWholes(const Scene& scene);
   uint32_t numberOf(const std::string& text);
 
-  struct Name {
-    CityKind kind = CityKind::Unknown;
-    bool isLot = false;
-  };
-  CityKind kindOf(const Name& name, const Leaf& leaf) const;
+  CityKind kindOf(const CityWord& name, const Leaf& leaf) const;
 
   // By name, source and attribute set.
-  std::vector<Name> names_, sources_;
-  // By mesh: the height of a body that a leaf of a lot shows.
-  std::vector<double> bodies_;
+  std::vector<CityWord> names_, sources_;
+  // By mesh: the height of a body, where a leaf of a lot shows it.
+  std::vector<std::optional<double>> bodies_;
   std::vector<bool> trims_;
   std::vector<CityPart> setParts_;
   std::vector<std::string> texts_{""};
