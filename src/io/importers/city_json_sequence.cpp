@@ -73,21 +73,18 @@ class Sequence {
 
   void addFeature(const JsonValue& root) {
     for (const auto& [id, object] : root["CityObjects"].members()) {
-      std::string out;
-      JsonWriter w(out);
-      w.beginObject().key(id);
+      if (!objects_.empty()) objects_ += ',';
+      JsonWriter(objects_).value(id);
+      objects_ += ':';
+      JsonWriter w(objects_);
       addObject(w, object);
-      w.endObject();
-      join(objects_, std::string_view(out).substr(1, out.size() - 2));
     }
     for (const JsonValue& vertex : root["vertices"].items()) {
-      std::string out;
-      JsonWriter w(out);
+      if (!vertices_.empty()) vertices_ += ',';
+      JsonWriter w(vertices_);
       copy(w, vertex);
-      join(vertices_, out);
-      ++count_;
     }
-    first_ = count_;
+    first_ += root["vertices"].size();
   }
 
   void addObject(JsonWriter& w, const JsonValue& object) const {
@@ -130,15 +127,10 @@ class Sequence {
     w.endArray();
   }
 
-  static void join(std::string& list, std::string_view item) {
-    if (!list.empty()) list += ',';
-    list += item;
-  }
-
   const std::string& path_;
   std::string head_, objects_, vertices_;
-  /// Of vertices: all, and those before the feature.
-  uint64_t count_ = 0, first_ = 0;
+  /// Vertices before the feature.
+  uint64_t first_ = 0;
 };
 
 }  // namespace
