@@ -45,6 +45,22 @@ size_t editDistance(std::string_view a, std::string_view b, size_t limit) {
   return last[a.size()];
 }
 
+// Whether two names are the same words in another order: gableRoof and roofGable.
+bool sameWords(std::string_view a, std::string_view b) {
+  if (a.size() != b.size()) return false;
+  const auto words = [](std::string_view name) {
+    std::vector<std::string> all(1);
+    for (const char c : name) {
+      if (lowerCase(c) != c && !all.back().empty()) all.emplace_back();
+      all.back() += lowerCase(c);
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  const std::vector<std::string> of = words(a);
+  return of.size() > 1 && of == words(b);
+}
+
 std::string nearestName(std::string_view name, const std::vector<std::string_view>& candidates) {
   // Names longer than any in a rule file are not worth comparing.
   constexpr size_t kLongest = 64;
@@ -57,8 +73,8 @@ std::string nearestName(std::string_view name, const std::vector<std::string_vie
   for (const std::string_view candidate : candidates) {
     work(name.size());
     if (candidate.empty() || candidate == name || candidate.size() > kLongest) continue;
-    const size_t distance =
-        lowerCase(candidate) == folded ? 0 : editDistance(name, candidate, bestDistance - 1);
+    const bool same = lowerCase(candidate) == folded || sameWords(name, candidate);
+    const size_t distance = same ? 0 : editDistance(name, candidate, bestDistance - 1);
     if (lowerCase(candidate[0]) != folded[0] && distance > mostUnlike) continue;
     if (distance < bestDistance && distance < candidate.size()) {
       bestDistance = distance;

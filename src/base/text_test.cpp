@@ -33,6 +33,8 @@ TEST(Text, nearestNameIsNearOrNone) {
   const std::vector<std::string_view> names = {"extrude", "envelope", "s", "split", "Split"};
   EXPECT_EQ(nearestName("extrud", names), "extrude");
   EXPECT_EQ(nearestName("SPLIT", names), "split");
+  EXPECT_EQ(nearestName("gableRoof", {"gableRoofs", "roofGable", "roofHip"}), "roofGable");
+  EXPECT_EQ(nearestName("hipRoof", {"roofGable", "roofhip"}), "");
   EXPECT_EQ(nearestName("qqq", names), "");
   EXPECT_EQ(nearestName("x", names), "");
   EXPECT_EQ(nearestName("extrude", {"extrude"}), "");

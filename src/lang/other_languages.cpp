@@ -22,6 +22,8 @@ constexpr std::string_view kRules =
 constexpr std::string_view kValues =
     "write 'attr name = value' where users may change it, else 'const name = value'; within a rule "
     "'Name with (name := value) --> ...'";
+constexpr std::string_view kSmall =
+    "the words before declarations are small: attr, const, import, style";
 constexpr std::string_view kResults =
     "a function is its value: name(a) = a * 2; a rule gives no value";
 constexpr std::string_view kImports =
@@ -72,6 +74,9 @@ constexpr ForeignWord kWords[] = {
     {"function", Declaration, {}, kRules},
     {"rule", Declaration, {}, kRules},
     {"void", Declaration, {}, kRules},
+    {"Attr", Declaration, "attr", kSmall},
+    {"Const", Declaration, "const", kSmall},
+    {"attribute", Declaration, "attr", kValues},
     {"auto", Declaration, "attr", kValues},
     {"bool", Declaration, "attr", kValues},
     {"boolean", Declaration, "attr", kValues},

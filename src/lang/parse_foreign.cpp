@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <string>
 
+#include "base/text.h"
 #include "lang/other_languages.h"
 #include "lang/parser_impl.h"
 
@@ -25,7 +26,7 @@ bool Parser::isDeclared(std::string_view name) {
 
 const ForeignWord* Parser::foreignAt(size_t index, ForeignUse use) {
   const Token& t = token(index);
-  if (t.kind != TokenKind::Name) return nullptr;
+  if (t.kind != TokenKind::Name || t.keyword != Keyword::None) return nullptr;
   const ForeignWord* const word = foreignWord(use, textOf(t));
   return word && !isDeclared(textOf(t)) ? word : nullptr;
 }
@@ -34,6 +35,10 @@ const ForeignWord* Parser::foreignAt(size_t index, ForeignUse use) {
 
 uint32_t Parser::lineEnd(uint32_t at) const {
   return static_cast<uint32_t>(std::min(text_.find('\n', at), text_.size()));
+}
+
+uint32_t Parser::lineOf(const Token& t) const {
+  return static_cast<uint32_t>(std::count(text_.begin(), text_.begin() + t.begin, '\n')) + 1;
 }
 
 bool Parser::beginsLine(const Token& t) const {
@@ -137,10 +142,15 @@ bool Parser::assignsHere() const {
 
 // The sign of a declaration, behind the name.
 void Parser::reportAssign(const Token& name, bool hasWord) {
+  const std::string written(textOf(name));
+  const std::string remedy =
+      lowerCase(written[0]) == written[0]
+          ? remedyOf(*foreignWord(ForeignUse::Declaration, "var"))
+          : "write '" + written + " -->' for a rule, 'attr " + written + " =' for a value";
   error("unexpected-token", spanOf(current()), "':=' declares no value here",
-        hasWord ? "write '='" : remedyOf(*foreignWord(ForeignUse::Declaration, "var")));
+        hasWord ? "write '='" : remedy);
   fix({file_, hasWord ? current().begin : name.begin, current().end},
-      hasWord ? "=" : "attr " + std::string(textOf(name)) + " =");
+      hasWord ? "=" : "attr " + written + " =");
 }
 
 // a := 1, a += 1 and a++ behind other operations.

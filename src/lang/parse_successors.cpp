@@ -544,9 +544,11 @@ void Parser::noteDentedCloser(const Token& open) {
 void Parser::reportUnclosed(const Token& open) {
   const bool inner = dented_ && dented_->begin > open.begin;
   const Token& place = inner ? *dented_ : open;
+  const std::string line =
+      onOneLine(open, current()) || atEnd() ? "" : " of line " + std::to_string(lineOf(current()));
   error("unclosed-block", spanOf(place), "this '{' is never closed",
         "add '}' before " +
-            (inner ? "the '}' that begins a line further left" : describe(current())));
+            (inner ? "the '}' that begins a line further left" : describe(current()) + line));
 }
 
 NodeId Parser::parseBlock(bool expressions) {

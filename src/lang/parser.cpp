@@ -257,6 +257,17 @@ NodeId Parser::parseAnnotationValue() {
   return make(node(NodeKind::Index, begin), {value, index, kNoNode});
 }
 
+// Whether a further argument of an annotation stands here, without a comma before it; reports that.
+bool Parser::reportMissingComma(const std::string& annotation) {
+  const Token& t = current();
+  const bool value =
+      t.kind == TokenKind::Name || t.kind == TokenKind::Number || t.kind == TokenKind::String;
+  if (!value || panic_ || at_ == 0 || !onOneLine(tokens_[at_ - 1], t)) return false;
+  unexpected("',' or ')' in the arguments of '@" + annotation + "'", "write ',' before it");
+  fix(spanAt(endOfLast()), ",");
+  return true;
+}
+
 // Annotations never stop a file: a malformed one is a warning, and its brackets are passed over.
 NodeId Parser::parseAnnotation() {
   const uint32_t begin = current().begin;
@@ -274,9 +285,12 @@ NodeId Parser::parseAnnotation() {
     const Token open = current();
     advance();
     inAnnotation_ = true;
+    bool missesComma = false;
     while (!panic_ && !is(TokenKind::RParen) && !atEnd() && !declarationAt(at_, true)) {
       arguments.push_back(parseAnnotationValue());
-      if (!accept(TokenKind::Comma)) break;
+      if (accept(TokenKind::Comma)) continue;
+      if (missesComma || !reportMissingComma(name)) break;
+      missesComma = true;
     }
     if (!is(TokenKind::RParen)) {
       n.flags = kFlagBroken;

@@ -120,6 +120,7 @@ class Parser {
 
   // --- Declarations (parser.cpp) ---
   void parseDeclaration();
+  bool reportMissingComma(const std::string& annotation);
   NodeId parseAnnotation();
   NodeId parseAnnotationValue();
   NodeId parseVersion();
@@ -208,6 +209,8 @@ class Parser {
   bool isDeclared(std::string_view name);
   const ForeignWord* foreignAt(size_t index, ForeignUse use);
   uint32_t lineEnd(uint32_t at) const;
+  /// The number of its line, from 1. Goes through the text before it.
+  uint32_t lineOf(const Token& t) const;
   bool beginsLine(const Token& t) const;
   bool onOneLine(const Token& a, const Token& b) const;
   void skipForeign(const Token& first);
