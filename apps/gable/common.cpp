@@ -141,8 +141,9 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
     double width = 20, depth = 20;
     double sides[2] = {width, depth};
     if (!arguments.lot.empty() &&
-        !parseNumbers(arguments.lot, 'x', {1e-300, kMetres.most}, sides, 2)) {
-      return wrongOption("--lot", "width x depth in metres, such as 30x40", arguments.lot);
+        !parseExtent(arguments.lot, {1e-300, kMetres.most}, sides)) {
+      return wrongOption("--lot", "width x depth in metres, such as 30x40, or one number for a square",
+                         arguments.lot);
     }
     if (arguments.lot.empty()) tellUsualLot(arguments.rules);
     width = sides[0], depth = sides[1];

@@ -32,6 +32,13 @@ bool parseNumbers(std::string_view text, char separator, const NumberRange& rang
   return true;
 }
 
+bool parseExtent(std::string_view text, const NumberRange& range, double out[2]) {
+  if (parseNumbers(text, 'x', range, out, 2)) return true;
+  if (!parseNumber(text, range, out[0])) return false;
+  out[1] = out[0];
+  return true;
+}
+
 std::string rangeText(const NumberRange& range) {
   const NumberRange any;
   char text[120];

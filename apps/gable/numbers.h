@@ -21,5 +21,7 @@ bool parseNumber(std::string_view text, const NumberRange& range, double& out);
 /// `count` numbers with `separator` between them: "30x40", "1,2,3". An X separates as an x does.
 bool parseNumbers(std::string_view text, char separator, const NumberRange& range, double* out,
                   size_t count);
+/// Width and depth or height with an x between them, "30x40"; one number is a square.
+bool parseExtent(std::string_view text, const NumberRange& range, double out[2]);
 /// "a number from 1 to 65536".
 std::string rangeText(const NumberRange& range);

@@ -168,11 +168,11 @@ int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
   double size[2];
   // A pixel takes about 60 bytes while it is drawn.
   constexpr double kMostPixels = 50e6;
-  if (!parseNumbers(a.size, 'x', {1, 16384, true}, size, 2) || size[0] * size[1] > kMostPixels) {
+  if (!parseExtent(a.size, {1, 16384, true}, size) || size[0] * size[1] > kMostPixels) {
     return wrongOption(
         "--size",
-        "width x height in pixels, such as 1600x900, each up to 16384 and 50 million "
-        "pixels in all",
+        "width x height in pixels, such as 1600x900, or one number for a square, each up to 16384 "
+        "and 50 million pixels in all",
         a.size);
   }
   s.width = static_cast<int>(size[0]);

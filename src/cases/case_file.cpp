@@ -89,8 +89,10 @@ class Reader {
     const std::string_view name = head.substr(0, blank);
     if (colon == std::string_view::npos || file_.cases.empty() ||
         std::find(kSections.begin(), kSections.end(), name) == kSections.end()) {
+      const bool first = file_.cases.empty();
       error("expected a section of a case, not '" + std::string(line) + "'; there are " +
-            sectionsText());
+            sectionsText() +
+            (first ? ", each below the line of its case: == name" : ""));
       return;
     }
     Section section;
