@@ -140,9 +140,9 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
   } else {
     double width = 20, depth = 20;
     double sides[2] = {width, depth};
-    if (!arguments.lot.empty() &&
-        !parseExtent(arguments.lot, {1e-300, kMetres.most}, sides)) {
-      return wrongOption("--lot", "width x depth in metres, such as 30x40, or one number for a square",
+    if (!arguments.lot.empty() && !parseExtent(arguments.lot, {1e-300, kMetres.most}, sides)) {
+      return wrongOption("--lot",
+                         "width x depth in metres, such as 30x40, or one number for a square",
                          arguments.lot);
     }
     if (arguments.lot.empty()) tellUsualLot(arguments.rules);

@@ -91,8 +91,7 @@ class Reader {
         std::find(kSections.begin(), kSections.end(), name) == kSections.end()) {
       const bool first = file_.cases.empty();
       error("expected a section of a case, not '" + std::string(line) + "'; there are " +
-            sectionsText() +
-            (first ? ", each below the line of its case: == name" : ""));
+            sectionsText() + (first ? ", each below the line of its case: == name" : ""));
       return;
     }
     Section section;
