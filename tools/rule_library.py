@@ -2,8 +2,10 @@
 # SPDX-FileCopyrightText: The Gable authors
 """The page docs/reference/rule-library.md: the rule files that come with Gable, and what is called from outside.
 
-A rule is listed where a comment stands right above it, or where another rule file of the examples calls it; an attribute's text
-is the comment behind it. tools/gen_docs.py writes the page.
+A rule is listed where a comment stands right above it, where the file's first comment names it, or where another rule file of the
+examples calls it; with another number of arguments it is listed once, with those that may be left out. What an attribute means
+is its @Description and the comment behind it, and the values that its @Enum or @Range lets it have. tools/gen_docs.py writes
+the page.
 """
 import re
 
@@ -31,6 +33,9 @@ HEADER = re.compile(r"/\*(.*?)\*/", re.S)
 ANNOTATIONS = re.compile(r"^(?:@\w+(?:\([^()]*\))?\s*)+")
 RULE = re.compile(r"^([A-Z]\w*)(?:\((.*?)\))?\s*-->")
 ATTRIBUTE = re.compile(r"^attr\s+(\w+)\s*=\s*(.+)$")
+DESCRIPTION = re.compile(r'@Description\("([^"]*)"\)')
+CHOICES = re.compile(r"@Enum\(([^()]*)\)")
+RANGE = re.compile(r"@Range\(\s*min\s*=\s*([-\d.]+)\s*,\s*max\s*=\s*([-\d.]+)")
 IMPORT = re.compile(r'^import\s+(\w+)\s*:\s*"([^"]+)"', re.M)
 
 
@@ -45,10 +50,45 @@ def comments_above(lines, at):
     return " ".join(out)
 
 
-def parameters(text):
-    """`(a, b = 3)` as `(a, [b])`; nothing for a rule that takes none."""
+def annotations_of(lines, at):
+    """The annotations of the declaration in lines[at]: those before it on its line, and the lines of them above."""
+    before = ANNOTATIONS.match(lines[at])
+    out = before[0] if before else ""
+    while at > 0 and lines[at - 1].startswith("@") and not ANNOTATIONS.sub("", lines[at - 1]):
+        at -= 1
+        out = lines[at] + " " + out
+    return out
+
+
+def meaning(annotations, comment):
+    """What an attribute means: what is written about it, then the values that it may have."""
+    described = DESCRIPTION.search(annotations)
+    parts = [t for t in (described[1] if described else "", comment) if t]
+    if choices := CHOICES.search(annotations):
+        parts.append(", ".join(f"`{c.strip()}`" for c in choices[1].split(",") if "=" not in c))
+    elif limits := RANGE.search(annotations):
+        parts.append(f"{limits[1]} to {limits[2]}")
+    return "; ".join(parts)
+
+
+def parameters(text, always):
+    """`(a, b = 3)` as `(a, [b])`; nothing for a rule that takes none. Those from `always` on may be left out."""
     names = [p.strip() for p in text.split(",")] if text else []
-    return "(" + ", ".join(f"[{n.split('=')[0].strip()}]" if "=" in n else n for n in names) + ")" if names else ""
+    shown = [f"[{n.split('=')[0].strip()}]" if "=" in n or i >= always else n for i, n in enumerate(names)]
+    return "(" + ", ".join(shown) + ")" if names else ""
+
+
+def forms(lines):
+    """{rule: (the most parameters that it is declared with, the number of the fewest)}."""
+    found = {}
+    for line in lines:
+        if match := RULE.match(ANNOTATIONS.sub("", line)):
+            text = match[2] or ""
+            count = len(text.split(",")) if text else 0
+            most, few = found.get(match[1], ("", count))
+            most_count = len(most.split(",")) if most else 0
+            found[match[1]] = (text if count > most_count else most, min(few, count))
+    return found
 
 
 def calls(files):
@@ -66,15 +106,19 @@ def section(path, text, called):
     """A file's header, attributes and rules."""
     lines = text.split("\n")
     header = HEADER.match(text)
+    named = called | set(re.findall(r"`([A-Z]\w*)`", header[1])) if header else called
+    declared = forms(lines)
     attributes, rules, seen = [], [], set()
     for at, line in enumerate(lines):
         comment = comments_above(lines, at)
-        if match := ATTRIBUTE.match(line):
+        if match := ATTRIBUTE.match(ANNOTATIONS.sub("", line)):
+            annotations = annotations_of(lines, at)
             value, _, beside = match[2].partition("//")
-            attributes.append((f"`{match[1]}`", f"`{value.strip()}`", beside.strip()))
-        elif (match := RULE.match(ANNOTATIONS.sub("", line))) and match[1] not in seen and (comment or match[1] in called):
+            if "@Hidden" not in annotations:
+                attributes.append((f"`{match[1]}`", f"`{value.strip()}`", meaning(annotations, beside.strip())))
+        elif (match := RULE.match(ANNOTATIONS.sub("", line))) and match[1] not in seen and (comment or match[1] in named):
             seen.add(match[1])
-            rules.append((f"`{match[1]}{parameters(match[2])}`", comment))
+            rules.append((f"`{match[1]}{parameters(*declared[match[1]])}`", comment))
     out = f"## {path.name}\n\n"
     if header:
         out += " ".join(header[1].split()) + "\n\n"
