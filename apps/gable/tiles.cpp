@@ -187,6 +187,14 @@ int runPlan(const gable::TilePlan& plan, const gable::Rules& rules, const Means&
   return told(result);
 }
 
+/// Many bytes are told, with what would make them fewer.
+void tellBytes(const gable::TileResult& result, bool compressed) {
+  constexpr uint64_t kMany = 20'000'000;
+  if (compressed || result.bytes < kMany) return;
+  note(std::to_string(result.bytes / 1'000'000) +
+       " MB of tiles; --compress writes about a sixth of that");
+}
+
 /// Memory does not grow with the map, and what was begun before goes on.
 int runInPieces(const TilesArguments& arguments, const std::string& folder, double begin) {
   ViewerPage page;
@@ -204,6 +212,7 @@ int runInPieces(const TilesArguments& arguments, const std::string& folder, doub
   if (const int status = runPlan(plan, rules, means, result)) return status;
   if (const int status = page.write()) return status;
   answer().wrote(folder);
+  tellBytes(result, arguments.tiles.compress);
   return writeStats(arguments.stats, result, begin, planned - begin);
 }
 
@@ -265,6 +274,7 @@ int makeTiles(const DeriveArguments& derive, const TileArguments& tiles, const P
   const Means means{derive.jobs, derive.limits, begin};
   if (const int status = runPlan(plan, placed.rules, means, result)) return status;
   answer().wrote(folder);
+  tellBytes(result, tiles.compress);
   return page.write();
 }
 
@@ -279,6 +289,7 @@ int runTiles(const TilesArguments& arguments) {
   gable::TileResult result;
   if (const int status = writeTileFolder(arguments, inputs, folder, result)) return status;
   answer().wrote(folder);
+  tellBytes(result, arguments.tiles.compress);
   return writeStats(arguments.stats, result, begin, inputs.rules.parseSeconds());
 }
 
