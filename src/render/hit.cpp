@@ -217,7 +217,9 @@ float clearness(const World& world, const TriangleSet& set, uint32_t triangle, u
   return 1 - layers.opacity();
 }
 
-Surface surfaceAt(const World& world, const Hit& hit, const Ray& ray, float width) {
+namespace {
+
+Surface shellAt(const World& world, const Hit& hit, const Ray& ray, float width) {
   const Placement* placement = hit.placement == kNone ? nullptr : &world.placements[hit.placement];
   const Part& part = world.parts[placement ? placement->part : 0];
   const TriangleSet& set = part.set(hit.clear);
@@ -298,6 +300,16 @@ Surface surfaceAt(const World& world, const Hit& hit, const Ray& ray, float widt
   if (hit.clear) s.opacity = layers.opacity();
 
   faceViewer(s, ray);
+  return s;
+}
+
+}  // namespace
+
+Surface surfaceAt(const World& world, const Hit& hit, const Ray& ray, float width) {
+  Surface s = shellAt(world, hit, ray, width);
+  if (s.matter == Matter::Smoke) {
+    s.opacity = opacityOfSmoke(s.opacity, dot(s.normal, normalized(ray.direction)));
+  }
   return s;
 }
 

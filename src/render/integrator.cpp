@@ -90,7 +90,10 @@ class Tracing {
     const Vec3f view = -w.ray.direction;
     const Lobes lobes = lobesOf(surface, view);
     if (surface.opacity < 1 && passes(w, surface, lobes)) {
-      w.ray.origin = offsetFrom(surface.point, surface.facet, w.ray.direction);
+      // On from the facet: the surface's own point is lifted off it where it stands for a round
+      // one.
+      const Vec3f met = w.ray.origin + w.ray.direction * distance;
+      w.ray.origin = offsetFrom(met, surface.facet, w.ray.direction);
       return ++w.passages <= kMostPassages;
     }
     if (surface.matter == Matter::Water && surface.clearWater > 0) {
@@ -99,7 +102,8 @@ class Tracing {
     shine(w, surface);
     if (w.sharp && !w.mirrored) {
       result.albedo = lobes.diffuse + lobes.through + lobes.coat;
-      result.normal = surface.normal;
+      // Smoke has no side: to the smoothing a puff is as one whichever way its shell turns.
+      result.normal = surface.matter == Matter::Smoke ? view : surface.normal;
       result.distance = w.travelled;
     }
     gatherSun(w, surface, lobes, view);

@@ -545,6 +545,59 @@ TEST(Water, showsItsBottomAsFarAsItIsClear) {
   EXPECT_NEAR(opaque, 0, 0.002);
 }
 
+// A dark sheet over a floor that shines, seen at so many degrees above the sheet.
+double levelThrough(const char* name, double degrees) {
+  SceneMaker m;
+  m.scene.names.push_back(name);
+  Material sheet;
+  parseColor("#101010", sheet.color, sheet.opacity);
+  sheet.roughness = 1;
+  sheet.opacity = 0.6;
+  Material floor;
+  floor.emissive = {0.3, 0.3, 0.3};
+  m.box({-90, -1, -90}, {180, 0.01, 180}, m.material(floor));
+  m.box({-40, 0, -40}, {80, 0, 80}, m.material(sheet));
+  m.leaves.back().name = static_cast<uint32_t>(m.scene.names.size() - 1);
+  RenderOptions o = smallOptions(24, 24, 64);
+  const double angle = degrees * kPi / 180;
+  o.eye = Vec3{0, 30 * std::sin(angle), 30 * std::cos(angle)};
+  o.target = Vec3{0, 0, 0};
+  o.fov = 8;
+  o.adaptExposure = false;
+  return levelOf(render(std::move(m.finish()), o).image);
+}
+
+// A black ball that covers a third, before a wall that shines.
+double levelBehindBall(bool smooth) {
+  SceneMaker m;
+  Material ball, wall;
+  parseColor("#000000", ball.color, ball.opacity);
+  ball.roughness = 1;
+  ball.opacity = 0.33;
+  wall.emissive = {0.5, 0.5, 0.5};
+  Mesh mesh = ballMesh(5);
+  if (!smooth) mesh.normals.clear();
+  for (MeshFace& face : mesh.faces) face.smooth = smooth;
+  m.mesh(std::move(mesh), m.material(ball));
+  m.box({-9, -9, -4}, {18, 18, 0.1}, m.material(wall));
+  RenderOptions o = smallOptions(48, 48, 64);
+  o.eye = Vec3{0, 0, 9};
+  o.target = Vec3{0, 0, 0};
+  o.fov = 11;
+  o.adaptExposure = false;
+  o.denoise = false;
+  return levelOf(render(m.finish(), o).image);
+}
+
+TEST(Clear, roundThingsAreMetAsOftenAsFlatOnes) {
+  EXPECT_NEAR(levelBehindBall(true), levelBehindBall(false), 0.004);
+}
+
+TEST(Smoke, coversByTheLengthOfTheWayThrough) {
+  EXPECT_NEAR(levelThrough("Smoke", 88), levelThrough("Sheet", 88), 0.06);
+  EXPECT_GT(levelThrough("ThinSmoke", 15), 1.2 * levelThrough("Sheet", 15));
+}
+
 TEST(Water, hasWavesThatBreakTheMirror) {
   const auto variation = [](bool isPond) {
     Scene scene = pondOver(1, "#000000");

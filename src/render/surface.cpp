@@ -11,6 +11,7 @@
 #include <iterator>
 #include <map>
 
+#include "base/elementary.h"
 #include "material/library.h"
 #include "math/trig.h"
 #include "render/tone.h"
@@ -34,6 +35,12 @@ constexpr std::string_view kWaterWords[] = {"water", "pond", "pool",  "river",
                                             "lake",  "sea",  "canal", "stream"};
 constexpr std::string_view kFoliageWords[] = {"foliage", "leaves", "frond", "fronds",
                                               "needles", "petals", "blades"};
+
+constexpr std::string_view kSmokeWords[] = {"smoke", "steam", "fog", "cloud", "clouds"};
+/// What glitters is no smoke.
+constexpr float kSmokeRoughness = 0.5f;
+/// Share of the light that smoke lets through to the side that is turned away.
+constexpr float kSmokeTransmission = 0.45f;
 
 template <size_t N>
 bool isOneOf(std::string_view word, const std::string_view (&words)[N]) {
@@ -310,6 +317,7 @@ Matter matterNamed(std::string_view name) {
     if (!small) {
       if (isOneOf(word, kWaterWords)) return Matter::Water;
       if (isOneOf(word, kFoliageWords)) return Matter::Foliage;
+      if (isOneOf(word, kSmokeWords)) return Matter::Smoke;
       word.clear();
     }
     if (small || capital) word += capital ? static_cast<char>(c - 'A' + 'a') : c;
@@ -330,7 +338,15 @@ SurfaceMaterial madeOf(const SurfaceMaterial& material, Matter matter) {
     // Shadow rays pass it: the surface itself takes nothing.
     m.clear = m.opacity < 1;
   }
+  if (matter == Matter::Smoke && m.opacity < 1 && m.roughness > kSmokeRoughness) {
+    m.matter = matter;
+    m.transmission = kSmokeTransmission;
+  }
   return m;
+}
+
+float opacityOfSmoke(float opacity, float cosine) {
+  return 1 - static_cast<float>(powOf(1 - static_cast<double>(opacity), std::abs(cosine)));
 }
 
 Lobes lobesOf(const Surface& s, const Vec3f& view) {
@@ -343,7 +359,10 @@ Lobes lobesOf(const Surface& s, const Vec3f& view) {
     lobes.coat = coatReflection(lobes.facing, s.roughness, cosine);
   }
   lobes.diffuse = s.base * (Vec3f{1, 1, 1} - lobes.coat) * (1 - s.metallic);
-  if (s.transmission > 0) {
+  if (s.matter == Matter::Smoke) {
+    lobes.through = lobes.diffuse * s.transmission;
+    lobes.diffuse *= 1 - s.transmission;
+  } else if (s.transmission > 0) {
     const float most = std::max(maxOf(s.base), 1e-4f);
     lobes.through = kLeafTint * s.base * (s.transmission * (1 - std::min(1.0f, most)) / most);
   }

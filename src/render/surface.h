@@ -36,9 +36,10 @@ struct TextureLookup {
 constexpr float kPaneRoughness = 0.2f;
 
 /// What a surface is by the name that rules gave its shape.
-enum class Matter : uint8_t { Plain, Foliage, Water };
+enum class Matter : uint8_t { Plain, Foliage, Water, Smoke };
 
-/// By the words of a name: a Pond or DeepWater is Water, Foliage or PalmFronds are Foliage.
+/// By the words of a name: a Pond or DeepWater is Water, Foliage or PalmFronds are Foliage, Smoke
+/// or SteamPuff are Smoke.
 Matter matterNamed(std::string_view name);
 
 struct SurfaceMaterial {
@@ -93,6 +94,11 @@ void makeMaterials(const std::vector<Material>& from, const TextureSource* sourc
 
 /// The same material for shapes of another matter; unchanged where it cannot be that.
 SurfaceMaterial madeOf(const SurfaceMaterial& material, Matter matter);
+
+/// How much a shell about smoke covers where it is met at an angle of this cosine: what lies within
+/// it takes light by the length of the way through, so a ball has no outline. `opacity` is that
+/// of a shell that is met straight on.
+float opacityOfSmoke(float opacity, float cosine);
 
 struct Surface {
   Vec3f point;
