@@ -99,6 +99,13 @@ Progress::~Progress() {
   }
 }
 
+void Progress::tellStep(const char* step, double seconds) {
+  const Pause pause;
+  if (terminal().verbose && !terminal().quiet) {
+    std::fprintf(stderr, "  %s: %.2f s\n", step, seconds);
+  }
+}
+
 bool Progress::isShown() { return !terminal().quiet && isScreen(stderr); }
 
 std::function<void(size_t, size_t)> Progress::callback() {

@@ -27,6 +27,8 @@ class Progress {
   std::function<void(size_t done, size_t total)> callback();
   /// Whether a bar may be drawn.
   static bool isShown();
+  /// With --verbose a line for a part of what is being done.
+  static void tellStep(const char* step, double seconds);
 
   /// Erases the bar and keeps it away while lines are written; it comes again below them. One at a
   /// time in a thread.

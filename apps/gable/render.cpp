@@ -11,6 +11,7 @@
 #include "derive_settings.h"
 #include "gable/builtins.h"
 #include "gable/names.h"
+#include "memory.h"
 #include "progress.h"
 #include "watch.h"
 
@@ -241,6 +242,7 @@ int drawPicture(const gable::Model& model, const std::string& path,
                 gable::PictureSettings settings) {
   Progress progress("drawing", "pixels");
   settings.progress = pixelsOf(progress.callback(), settings);
+  settings.timed = Progress::tellStep;
   const gable::WriteResult written = model.picture(path, settings);
   print(written.diagnostics);
   if (gable::hasErrors(written.diagnostics)) return statusOf(written.diagnostics, kExitFile);
@@ -255,6 +257,7 @@ int drawWithLayers(const gable::Model& model, const RenderArguments& arguments,
                    gable::PictureSettings settings) {
   Progress progress("drawing", "pixels");
   settings.progress = pixelsOf(progress.callback(), settings);
+  settings.timed = Progress::tellStep;
   const gable::PictureMaker maker(model, settings.limits);
   const gable::PictureData data = maker.draw(settings);
   print(data.diagnostics);
@@ -351,6 +354,7 @@ int runWatch(const RenderArguments& arguments) {
 }
 
 int runRender(const RenderArguments& arguments) {
+  useLargePages();
   if (arguments.count > 0) {
     return forSeeds(arguments.count, arguments.derive.seed, [&](const std::string& seed) {
       RenderArguments each = arguments;

@@ -128,6 +128,8 @@ struct PictureSettings {
   std::optional<int> jobs;
   /// Called from any thread with the thousandths of the picture that are done, of 1000.
   std::function<void(size_t done, size_t total)> progress;
+  /// Called with each step of the picture and the seconds that it took, once they are known.
+  std::function<void(const char* step, double seconds)> timed;
   /// Ends the drawing soon after it becomes true; what was drawn until then is written. In place of
   /// limits.cancel. May be null.
   std::atomic<bool>* cancel = nullptr;

@@ -119,6 +119,9 @@ std::vector<AttributeValue> knownOfRoot(const Model::Impl& model, size_t root);
 
 std::vector<ShapeReports> reportsByShapeOf(const Model::Impl& model);
 
+/// The paths of all textures that materials of a scene name.
+std::vector<std::string> texturesOf(const Scene& scene);
+
 /// Seconds of a steady clock.
 double now();
 

@@ -50,7 +50,8 @@ WriteResult write(const std::string& name, const std::string& folder) {
   std::vector<std::pair<std::string, std::string>> files{{"material.mtl", mtlOf(*m)}};
   constexpr std::array<const char*, 3> kNames{"color.jpg", "normal.jpg", "surface.jpg"};
   for (size_t i = 0; i < kNames.size(); ++i) {
-    Result<std::string> bytes = encodeMaterialPicture(field, *m, static_cast<MaterialPicture>(i));
+    const auto picture = static_cast<MaterialPicture>(i);
+    Result<std::string> bytes = encodeMaterialPicture(pictureOf(field, *m, picture), picture);
     if (!bytes.ok()) return fail(bytes.error());
     files.emplace_back(kNames[i], std::move(*bytes));
   }

@@ -79,18 +79,6 @@ bool carriesTextures(const std::string& path) {
   return format != "ply" && format != "stl" && format != "ifc" && !format.starts_with("city.");
 }
 
-// What the model will ask for.
-std::vector<std::string> texturesOf(const Scene& scene, const std::string& path) {
-  std::vector<std::string> paths;
-  if (!carriesTextures(path)) return paths;
-  for (const Material& m : scene.materials) {
-    for (const TextureMap& map : m.maps) {
-      if (!map.path.empty()) paths.push_back(map.path);
-    }
-  }
-  return paths;
-}
-
 // model.glb is model_LOD1.glb at the first level.
 std::string levelPath(const std::string& path, size_t level) {
   if (level == 0) return path;
@@ -167,7 +155,7 @@ WriteResult written(const Model::Impl& impl, const std::string& path,
     if (impl.project) return impl.project->texture(texture);
     return Error{"texture-not-found", "there is no picture '" + texture + "'", ""};
   };
-  if (impl.project) impl.project->drawBuiltins(texturesOf(impl.scene(), path));
+  if (impl.project && carriesTextures(path)) impl.project->drawBuiltins(texturesOf(impl.scene()));
   const bool game = asksForGameScene(settings) && !modelFormatOf(path).empty();
   Atlas atlas(settings.atlas);
   const auto write = [&] {
@@ -236,6 +224,16 @@ std::optional<Enumeration> named(const std::vector<std::string>& names, const st
 }
 
 }  // namespace
+
+std::vector<std::string> texturesOf(const Scene& scene) {
+  std::vector<std::string> paths;
+  for (const Material& m : scene.materials) {
+    for (const TextureMap& map : m.maps) {
+      if (!map.path.empty()) paths.push_back(map.path);
+    }
+  }
+  return paths;
+}
 
 const std::vector<std::string>& viewNames() {
   static const std::vector<std::string> names{"iso", "top", "front", "street"};

@@ -19,33 +19,30 @@ namespace gable {
 
 namespace {
 
-// Textures by the paths that materials name, decoded once.
+// Textures by the paths that materials name.
 class ProjectTextures final : public TextureSource {
  public:
-  explicit ProjectTextures(Project* project) : project_(project) {}
+  // Draws what is built in at once, on all processors.
+  ProjectTextures(Project* project, const Scene& scene) : project_(project) {
+    if (project_) project_->drawPictures(texturesOf(scene));
+  }
 
   const TextureImage* find(const std::string& path) const override {
     const auto [at, fresh] = images_.try_emplace(path);
-    if (fresh) load(path, at->second);
-    return at->second.width > 0 ? &at->second : nullptr;
+    if (fresh && project_) at->second = held(project_->picture(path));
+    return at->second && at->second->width > 0 ? at->second.get() : nullptr;
   }
 
  private:
-  void load(const std::string& path, TextureImage& out) const {
-    if (!project_) return;
-    const auto bytes = project_->texture(path);
-    if (!bytes.ok()) return;
-    auto image = decodeImage(bytes.value());
-    if (!image.ok()) return;
-    // Small files can be large pictures; beyond this, surfaces have their colour.
+  // Small files can be large pictures; beyond this, surfaces have their colour.
+  TexturePicture held(TexturePicture image) const {
     constexpr uint64_t kMostBytes = 2ull << 30;
-    held_ += image->rgba.size();
-    if (held_ > kMostBytes) return;
-    out = {image.value().width, image.value().height, std::move(image.value().rgba)};
+    if (image) held_ += image->rgba.size();
+    return held_ > kMostBytes ? nullptr : image;
   }
 
   Project* project_;
-  mutable std::map<std::string, TextureImage> images_;
+  mutable std::map<std::string, TexturePicture> images_;
   mutable uint64_t held_ = 0;
 };
 
@@ -165,9 +162,23 @@ void tellOfPicture(const Picture& picture, const Task& task, DiagnosticList& dia
       Sources{}));
 }
 
-WriteResult writtenPicture(const Picture& picture, const std::string& path, const Task& task) {
+void tellSeconds(const PictureSettings& settings, const Picture& picture) {
+  if (!settings.timed) return;
+  const auto& seconds = picture.stats.seconds;
+  settings.timed("making triangles", seconds.triangles);
+  settings.timed("making the tree", seconds.tree);
+  settings.timed("placing camera and light", seconds.prepare);
+  settings.timed("tracing", seconds.trace);
+  settings.timed("smoothing", seconds.denoise);
+}
+
+WriteResult writtenPicture(const Picture& picture, const std::string& path,
+                           const PictureSettings& settings, const Task& task) {
+  tellSeconds(settings, picture);
+  const double begin = now();
   const Result<std::string> png =
       encodePng({picture.image.width, picture.image.height, toRgba8(picture.image)}, 3);
+  if (settings.timed) settings.timed("encoding", now() - begin);
   if (!png.ok()) return failed<WriteResult>(png.error());
   const Result<uint64_t> bytes = writeFile(path, png.value());
   if (!bytes.ok()) return failed<WriteResult>(bytes.error());
@@ -239,18 +250,25 @@ WriteResult drawnPicture(const Model::Impl& model, const std::string& path,
   Result<RenderOptions> options = renderOptions(settings, model.scene());
   if (!options.ok()) return failed<WriteResult>(options.error());
   watch(settings, task.allowance(), options.value());
-  const ProjectTextures textures(model.project.get());
+  const double begin = now();
+  const ProjectTextures textures(model.project.get(), model.scene());
+  if (settings.timed) settings.timed("drawing textures", now() - begin);
   options->textures = &textures;
-  return writtenPicture(render(model.scene(), options.value()), path, task);
+  return writtenPicture(render(model.scene(), options.value()), path, settings, task);
 }
 
 struct PictureMaker::Impl {
   Model model;
-  ProjectTextures textures;
+  std::optional<ProjectTextures> textures;
   std::unique_ptr<Renderer> renderer;
   DiagnosticList diagnostics;
 
-  explicit Impl(const Model& m) : model(m), textures(m.impl().project.get()) {}
+  explicit Impl(const Model& m) : model(m) {}
+  void makeReady() {
+    const Model::Impl& m = model.impl();
+    textures.emplace(m.project.get(), m.scene());
+    renderer = std::make_unique<Renderer>(m.scene(), &*textures);
+  }
 };
 
 PictureMaker::PictureMaker(const Model& model, const FileLimits& limits) {
@@ -259,8 +277,7 @@ PictureMaker::PictureMaker(const Model& model, const FileLimits& limits) {
     DiagnosticList diagnostics;
   };
   impl->diagnostics = guardedResult<Made>(Task("making ready", "the model", limits), [&] {
-                        impl->renderer =
-                            std::make_unique<Renderer>(model.impl().scene(), &impl->textures);
+                        impl->makeReady();
                         return Made{};
                       }).diagnostics;
   impl_ = impl;
@@ -289,7 +306,9 @@ PictureData PictureMaker::draw(const PictureSettings& settings) const {
         Result<RenderOptions> options = renderOptions(settings, scene);
         if (!options.ok()) return failed<PictureData>(options.error());
         watch(settings, task.allowance(), options.value());
-        return dataOf(scene, options.value(), impl_->renderer->render(options.value()), task);
+        Picture picture = impl_->renderer->render(options.value());
+        tellSeconds(settings, picture);
+        return dataOf(scene, options.value(), std::move(picture), task);
       });
 }
 
@@ -310,7 +329,7 @@ WriteResult PictureMaker::write(const std::string& path, const PictureSettings& 
     Result<RenderOptions> options = renderOptions(settings, impl_->model.impl().scene());
     if (!options.ok()) return failed<WriteResult>(options.error());
     watch(settings, task.allowance(), options.value());
-    return writtenPicture(impl_->renderer->render(options.value()), path, task);
+    return writtenPicture(impl_->renderer->render(options.value()), path, settings, task);
   });
 }
 

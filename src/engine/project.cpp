@@ -4,41 +4,20 @@
 #include "engine/project.h"
 
 #include <algorithm>
-#include <array>
 
 #include "base/allowance.h"
 #include "base/files.h"
+#include "base/hash.h"
 #include "base/parallel_work.h"
 #include "io/image/image.h"
-#include "io/image/leaf_pictures.h"
-#include "io/image/patterns.h"
-#include "io/image/surface.h"
 #include "io/importers/asset.h"
 #include "io/importers/mtl_file.h"
-#include "material/builtin_textures.h"
-#include "material/library.h"
 
 namespace gable {
 
 namespace {
 
 constexpr uint64_t kLargestAsset = 1ull << 30;
-
-/// Beyond the last for another path.
-size_t numberOfBuiltin(std::string_view path) {
-  if (path.substr(0, kBuiltinTexturePrefix.size()) != kBuiltinTexturePrefix) {
-    return kBuiltinTextures.size();
-  }
-  size_t i = 0;
-  while (i < kBuiltinTextures.size() && path != builtinTexturePath(i)) ++i;
-  return i;
-}
-
-/// A texture or a picture of leaves that is drawn when it is asked for.
-bool isDrawn(std::string_view path) {
-  return numberOfBuiltin(path) < kBuiltinTextures.size() ||
-         builtinLeaves(path) < kBuiltinLeaves.size();
-}
 
 Metadatum metadatumOf(const std::string& key, const PlainValue& v) {
   const ValueType type = v.kind == PlainValue::Kind::Number ? ValueType::Float
@@ -91,61 +70,69 @@ void Project::addTextures(const TextureBytes& textures) {
   for (const auto& [name, bytes] : textures) embedded_[name] = bytes;
 }
 
-// The pictures of a material come from one field, so all are drawn once one is asked for.
-void Project::drawMaterials(const std::vector<std::string>& paths) {
-  std::vector<const LibraryMaterial*> wanted;
-  {
-    std::lock_guard lock(mutex_);
-    for (const std::string& path : paths) {
-      const LibraryMaterial* m = materialPictureOf(path).material;
-      if (m && builtins_.count(path) == 0) wanted.push_back(m);
-    }
-  }
-  // They lie in one table.
-  std::sort(wanted.begin(), wanted.end());
-  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-  constexpr std::array kPictures{MaterialPicture::Color, MaterialPicture::Normal,
-                                 MaterialPicture::Surface};
-  std::vector<std::array<std::string, kPictures.size()>> made(wanted.size());
-  parallelWork(wanted.size(), 0, [&](size_t i, unsigned) {
-    const SurfaceField field = drawSurface(*wanted[i]);
-    for (size_t k = 0; k < kPictures.size(); ++k) {
-      made[i][k] = encodeMaterialPicture(field, *wanted[i], kPictures[k]).value();
-    }
-  });
-  std::lock_guard lock(mutex_);
-  for (size_t i = 0; i < wanted.size(); ++i) {
-    for (size_t k = 0; k < kPictures.size(); ++k) {
-      builtins_[materialPicturePath(*wanted[i], kPictures[k])] = std::move(made[i][k]);
-    }
-  }
-}
-
 void Project::drawBuiltins(const std::vector<std::string>& paths) {
   // Drawn once and kept, whoever asks first.
   const UncountedWork uncounted;
-  drawMaterials(paths);
-  std::vector<std::pair<std::string, std::string>> made;
-  {
-    std::lock_guard lock(mutex_);
-    for (const std::string& path : paths) {
-      const bool wanted = isDrawn(path);
-      if (wanted && builtins_.count(path) == 0) made.emplace_back(path, "");
-    }
+  std::map<std::string, std::vector<std::string>> wanted;
+  for (const std::string& path : paths) {
+    std::vector<std::string> together = drawnWith(path);
+    const std::lock_guard lock(mutex_);
+    if (!together.empty() && builtins_.count(path) == 0) wanted[together[0]] = std::move(together);
   }
-  std::sort(made.begin(), made.end());
-  made.erase(std::unique(made.begin(), made.end()), made.end());
-  // Noise does not get smaller at higher levels, only slower.
-  constexpr int kLevel = 3, kLeavesLevel = 6;
-  parallelWork(made.size(), 0, [&](size_t i, unsigned) {
-    const std::string& path = made[i].first;
-    const size_t leaves = builtinLeaves(path);
-    made[i].second = leaves < kBuiltinLeaves.size()
-                         ? encodePng(drawLeaves(leaves), 4, kLeavesLevel).value()
-                         : encodePng(drawPattern(numberOfBuiltin(path)), 3, kLevel).value();
+  struct Drawn {
+    std::vector<std::string> paths, files;
+  };
+  std::vector<Drawn> drawn;
+  for (auto& [first, together] : wanted) drawn.push_back({std::move(together), {}});
+  parallelWork(drawn.size(), 0, [&](size_t i, unsigned) {
+    Drawn& d = drawn[i];
+    std::vector<Image> images;
+    for (const TexturePicture& p : pictures_.known(d.paths[0])) {
+      images.push_back({p->width, p->height, p->rgba});
+    }
+    if (images.empty()) images = drawTextures(d.paths);
+    for (size_t k = 0; k < d.paths.size(); ++k) {
+      d.files.push_back(encodeTexture(d.paths[k], std::move(images[k])));
+    }
   });
-  std::lock_guard lock(mutex_);
-  for (auto& [path, bytes] : made) builtins_[path] = std::move(bytes);
+  const std::lock_guard lock(mutex_);
+  for (Drawn& d : drawn) {
+    for (size_t k = 0; k < d.paths.size(); ++k) builtins_[d.paths[k]] = std::move(d.files[k]);
+  }
+}
+
+TexturePicture Project::picture(const std::string& path) {
+  bool isEmbedded = false;
+  {
+    const std::lock_guard lock(mutex_);
+    isEmbedded = embedded_.count(path) > 0;
+  }
+  if (!isEmbedded) {
+    if (TexturePicture drawn = pictures_.find(path)) return drawn;
+  }
+  const Result<std::string> bytes = texture(path);
+  return bytes.ok() ? decoded(bytes.value()) : nullptr;
+}
+
+TexturePicture Project::decoded(const std::string& bytes) {
+  const std::pair key(hashBytes(bytes), bytes.size());
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto at = decoded_.find(key); at != decoded_.end()) return at->second;
+  }
+  Result<Image> image = decodeImage(bytes);
+  if (!image.ok()) return nullptr;
+  TexturePicture made = texturePicture(std::move(image.value()));
+  constexpr uint64_t kMostKept = 512ull << 20;
+  const uint64_t size = made->rgba.size();
+  if (size > kMostKept) return made;
+  const std::lock_guard lock(mutex_);
+  if (decodedBytes_ + size > kMostKept) {
+    decoded_.clear();
+    decodedBytes_ = 0;
+  }
+  if (decoded_.emplace(key, made).second) decodedBytes_ += size;
+  return made;
 }
 
 Result<std::string> Project::texture(const std::string& path) {
@@ -154,7 +141,7 @@ Result<std::string> Project::texture(const std::string& path) {
     const auto at = embedded_.find(path);
     if (at != embedded_.end()) return *at->second;
   }
-  if (isDrawn(path) || materialPictureOf(path).material) {
+  if (!drawnWith(path).empty()) {
     drawBuiltins({path});
     std::lock_guard lock(mutex_);
     return builtins_[path];

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/result.h"
+#include "engine/drawn_textures.h"
 #include "engine/file_search.h"
 #include "io/importers/asset.h"
 #include "shape/services.h"
@@ -46,7 +47,13 @@ class Project final : public Assets {
   /// Draws those of the paths that name built-in textures, on several threads; texture() has them
   /// then.
   void drawBuiltins(const std::vector<std::string>& paths);
-  void drawMaterials(const std::vector<std::string>& paths);
+  /// The picture of a texture; null where there is none that can be read. Those of files are kept
+  /// by their bytes, up to half a gigabyte; built-in ones are as they were drawn, without the
+  /// losses of a file.
+  TexturePicture picture(const std::string& path);
+  /// Draws those of the paths that name built-in textures, on several threads; picture() has them
+  /// then.
+  void drawPictures(const std::vector<std::string>& paths) { pictures_.draw(paths, 0); }
 
   Ref<AssetModel> model(std::string_view path, std::string_view fromFile, bool zUp,
                         std::string& why) override;
@@ -65,6 +72,7 @@ class Project final : public Assets {
   Result<Asset> read(const std::string& file, bool zUp) const;
   Result<Material> readMaterial(const std::string& file) const;
   void embed(std::map<std::string, std::string>& textures);
+  TexturePicture decoded(const std::string& bytes);
 
   FileSearch where_;
   mutable std::mutex mutex_;
@@ -72,8 +80,12 @@ class Project final : public Assets {
   std::map<std::string, ImageInfo> images_;
   std::map<std::string, Result<Material>> materials_;
   TextureBytes embedded_;
-  /// Built-in textures that have been asked for, as PNG.
+  /// Built-in textures that have been asked for, as files.
   std::map<std::string, std::string> builtins_;
+  DrawnTextures pictures_;
+  /// Pictures of files by the hash and the number of their bytes.
+  std::map<std::pair<uint64_t, size_t>, TexturePicture> decoded_;
+  uint64_t decodedBytes_ = 0;
 };
 
 }  // namespace gable

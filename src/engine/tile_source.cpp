@@ -83,16 +83,6 @@ TileFeature featureOf(const ShapeFootprint& f) {
   return out;
 }
 
-std::vector<std::string> texturesOf(const Scene& scene) {
-  std::vector<std::string> paths;
-  for (const Material& m : scene.materials) {
-    for (const TextureMap& map : m.maps) {
-      if (!map.path.empty()) paths.push_back(map.path);
-    }
-  }
-  return paths;
-}
-
 // Whether a rule asks about other shapes, which a batch does not have.
 bool asksOthers(const Program& program) {
   return std::any_of(program.rules.begin(), program.rules.end(), [](const RuleCode& r) {

@@ -58,17 +58,18 @@ void Emitters::addPart(const World& world, uint32_t placement, const Shine& shin
   const auto point = [&](const Vec3f& d) { return p ? direction(d) + p->origin : d; };
   for (const bool clear : {false, true}) {
     const TriangleSet& set = part.set(clear);
-    for (uint32_t t = 0; t < set.corners.size(); ++t) {
-      const SurfaceMaterial& material = world.materials[set.materials[t]];
+    for (uint32_t t = 0; t < set.triangles.size(); ++t) {
+      const TriangleSet::Triangle& triangle = set.triangles[t];
+      const SurfaceMaterial& material = world.materials[triangle.material];
       if (maxOf(material.emissive) <= 0 && !material.pane) continue;
       work();
       Emitter e;
-      e.a = point(set.positions[set.corners[t][0]]);
-      e.ab = point(set.positions[set.corners[t][1]]) - e.a;
-      e.ac = point(set.positions[set.corners[t][2]]) - e.a;
+      e.a = point(set.positions[triangle.corners[0]]);
+      e.ab = point(set.positions[triangle.corners[1]]) - e.a;
+      e.ac = point(set.positions[triangle.corners[2]]) - e.a;
       if (!(areaOf(e) > kLeastArea)) continue;
       e.emissive =
-          shine(material, point(part.pieces[set.pieces[t]].middle), normalized(cross(e.ab, e.ac)));
+          shine(material, point(part.pieces[triangle.piece].middle), normalized(cross(e.ab, e.ac)));
       if (maxOf(e.emissive) <= 0) continue;
       e.placement = placement;
       e.triangle = t;

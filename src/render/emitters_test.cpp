@@ -65,8 +65,8 @@ TEST_F(EmitterRow, giveTheSumOfAllThatShines) {
   });
   double sum = 0;
   const TriangleSet& set = world.parts[0].solid;
-  ASSERT_EQ(set.corners.size(), emitters.size());
-  for (const auto& corners : set.corners) {
+  ASSERT_EQ(set.triangles.size(), emitters.size());
+  for (const auto& [corners, material, piece, attributes] : set.triangles) {
     const Vec3f a = set.positions[corners[0]], ab = set.positions[corners[1]] - a,
                 ac = set.positions[corners[2]] - a;
     const Vec3f across = cross(ab, ac);

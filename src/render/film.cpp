@@ -26,8 +26,11 @@ namespace {
 /// Dimensions of the sampler that no path uses.
 constexpr uint32_t kPixelDimension = 0, kLensDimension = 0x40000000;
 constexpr uint32_t kTile = 16;
-/// With Stage::ambient: whole paths of a pixel at most, and then brief ones up to all its samples.
-constexpr uint32_t kMostWhole = 4;
+/// With Stage::ambient: whole paths of a pixel at most, and then brief ones up to all its samples;
+/// and how many there are where all of a square of pixels see one open plane in the same light.
+constexpr uint32_t kMostWhole = 4, kPlainWhole = 2;
+/// How much alike their light and colour are, as a share, and their normals, as a cosine.
+constexpr float kAlikeLight = 0.1f, kAlikeNormal = 0.999f;
 /// Else: brief paths a whole one at most. And the errors that are aimed at, on a scale from black
 /// to white, by a pixel's own samples. Even samples, shared with neighbours, err a third as much:
 /// the first is seen by nobody, the second by few.
@@ -79,28 +82,41 @@ Ray throughLens(const Ray& middle, const Camera& camera, const Lens& lens, const
   return ray;
 }
 
-/// What samples add to a pixel that they lie in or beside.
+/// What samples add to a pixel that they lie in or beside: numbers in a row, so that compilers make
+/// vectors of the sums.
 struct Mix {
-  Vec3f direct, sun, albedo;
-  /// By how bright their surfaces are.
-  Vec3f normal;
-  float distance = 0, weight = 0;
+  enum Part : size_t { kWeight, kDirect, kSun = 4, kAlbedo = 7, kNormal = 10, kDistance = 13 };
   /// Of whole paths alone.
-  Vec3f indirect, wholeAlbedo;
-  float wholeWeight = 0;
+  enum WholePart : size_t { kWholeWeight = 16, kIndirect = 17, kWholeAlbedo = 20 };
+  static constexpr size_t kBriefParts = 16, kParts = 24;
+  using Numbers = std::array<float, kParts>;
 
-  void add(const PathResult& path, float tone, float w) {
-    weight += w;
-    direct += path.direct * w;
-    sun += path.sun * w;
-    albedo += path.albedo * w;
-    normal += path.normal * (tone * w);
-    distance += path.distance * (tone * w);
+  Numbers sums{};
+
+  /// The numbers of a sample; normal and distance by how bright its surface is.
+  static Numbers of(const PathResult& path, float tone) {
+    Numbers n{};
+    n[kWeight] = n[kWholeWeight] = 1;
+    put(n, kDirect, path.direct);
+    put(n, kSun, path.sun);
+    put(n, kAlbedo, path.albedo);
+    put(n, kNormal, path.normal * tone);
+    n[kDistance] = path.distance * tone;
+    put(n, kIndirect, path.indirect);
+    put(n, kWholeAlbedo, path.albedo);
+    return n;
   }
-  void addIndirect(const PathResult& path, float w) {
-    wholeWeight += w;
-    indirect += path.indirect * w;
-    wholeAlbedo += path.albedo * w;
+  template <size_t kCount>
+  void add(const Numbers& sample, float weight) {
+    for (size_t k = 0; k < kCount; ++k) sums[k] += sample[k] * weight;
+  }
+  Vec3f at(size_t part) const { return {sums[part], sums[part + 1], sums[part + 2]}; }
+
+ private:
+  static void put(Numbers& n, size_t part, const Vec3f& v) {
+    n[part] = v.x;
+    n[part + 1] = v.y;
+    n[part + 2] = v.z;
   }
 };
 
@@ -114,16 +130,18 @@ struct PixelSum {
   float indirect = 0, indirects = 0;
   uint64_t rays = 0;
 
-  const Mix& own() const { return mixes[4]; }
-
   void add(const PathResult& path, const PixelFilter::Weights& across,
            const PixelFilter::Weights& down, bool brief, float exposure) {
     const float tone = luminance(path.albedo);
+    const Mix::Numbers sample = Mix::of(path, tone);
     for (size_t j = 0; j < 3; ++j) {
       for (size_t i = 0; i < 3; ++i) {
+        Mix& mix = mixes[3 * j + i];
         const float w = across[i] * down[j];
-        mixes[3 * j + i].add(path, tone, w);
-        if (!brief) mixes[3 * j + i].addIndirect(path, w);
+        if (brief)
+          mix.add<Mix::kBriefParts>(sample, w);
+        else
+          mix.add<Mix::kParts>(sample, w);
       }
     }
     if (!brief) note(luminance(path.indirect) / std::max(kLeastTone, tone), indirect, indirects);
@@ -170,15 +188,15 @@ struct FilmSums {
   }
 
   void add(size_t i, const Mix& m, float share, float wholeShare) {
-    weight[i] += m.weight * share;
-    film.direct[i] += m.direct * share;
-    film.sun[i] += m.sun * share;
-    film.albedo[i] += m.albedo * share;
-    film.normal[i] += m.normal * share;
-    film.distance[i] += m.distance * share;
-    wholeWeight[i] += m.wholeWeight * wholeShare;
-    wholeAlbedo[i] += m.wholeAlbedo * wholeShare;
-    film.irradiance[i] += m.indirect * wholeShare;
+    weight[i] += m.sums[Mix::kWeight] * share;
+    film.direct[i] += m.at(Mix::kDirect) * share;
+    film.sun[i] += m.at(Mix::kSun) * share;
+    film.albedo[i] += m.at(Mix::kAlbedo) * share;
+    film.normal[i] += m.at(Mix::kNormal) * share;
+    film.distance[i] += m.sums[Mix::kDistance] * share;
+    wholeWeight[i] += m.sums[Mix::kWholeWeight] * wholeShare;
+    wholeAlbedo[i] += m.at(Mix::kWholeAlbedo) * wholeShare;
+    film.irradiance[i] += m.at(Mix::kIndirect) * wholeShare;
   }
 
   /// From sums to means.
@@ -195,6 +213,29 @@ struct FilmSums {
       film.irradiance[i] = {light.x / divisor.x, light.y / divisor.y, light.z / divisor.z};
     }
   }
+};
+
+/// Whether all paths that are noted see one plane under the open sky in the same light, or nothing
+/// but the sky.
+class Alike {
+ public:
+  void note(const PathResult& path) {
+    if (!any_) first_ = path;
+    any_ = true;
+    const bool hit = path.distance > 0;
+    all_ = all_ && hit == (first_.distance > 0) &&
+           isNear(luminance(path.direct + path.sun), luminance(first_.direct + first_.sun));
+    if (!all_ || !hit) return;
+    all_ = path.open >= 1 && dot(path.normal, first_.normal) > kAlikeNormal &&
+           isNear(luminance(path.albedo), luminance(first_.albedo));
+  }
+  bool all() const { return all_; }
+
+ private:
+  static bool isNear(float a, float b) { return std::abs(a - b) <= kAlikeLight * std::max(a, b); }
+
+  PathResult first_;
+  bool any_ = false, all_ = true;
 };
 
 /// Traces the pixels of a tile.
@@ -227,15 +268,22 @@ struct TileTask {
 
   uint64_t traceSquare(uint32_t x0, uint32_t y0, uint32_t x1, uint32_t y1) const {
     const uint32_t samples = std::max(1u, options.samples);
-    const uint32_t whole = stage.ambient ? std::min(samples, kMostWhole) : samples;
-    const uint32_t most = stage.ambient ? samples - whole : kMostBrief * whole;
+    uint32_t whole = stage.ambient ? std::min(samples, kMostWhole) : samples;
     std::array<Pixel, 4> square;
     size_t count = 0;
     for (uint32_t y = y0; y < y1; ++y) {
       for (uint32_t x = x0; x < x1; ++x) square[count++] = {x, y, 0, whole, {}};
     }
     const std::span<Pixel> pixels(square.data(), count);
+    if (options.denoise && stage.ambient && whole > kPlainWhole) {
+      for (Pixel& p : pixels) p.end = kPlainWhole;
+      if (trace(pixels, false))
+        whole = kPlainWhole;
+      else
+        for (Pixel& p : pixels) p.end = whole;
+    }
     trace(pixels, false);
+    const uint32_t most = stage.ambient ? samples - whole : kMostBrief * whole;
     for (Pixel& p : pixels) p.end += briefPaths(p.sum, whole, most);
     trace(pixels, true);
     uint64_t rays = 0;
@@ -246,18 +294,20 @@ struct TileTask {
     return rays;
   }
 
-  /// Traces what samples of pixels are due.
-  void trace(std::span<Pixel> pixels, bool brief) const {
+  /// Traces what samples of pixels are due. Whether they are alike.
+  bool trace(std::span<Pixel> pixels, bool brief) const {
     PathStart starts[Tracer::kMostTogether];
     Vec2f places[Tracer::kMostTogether];
     Pixel* owners[Tracer::kMostTogether];
     PathResult results[Tracer::kMostTogether];
     size_t count = 0;
+    Alike alike;
     const auto flush = [&] {
       traceTogether(stage, {starts, count}, options.seed, brief, results);
       for (size_t i = 0; i < count; ++i) {
         owners[i]->sum.add(results[i], filter.weights(places[i].x), filter.weights(places[i].y),
                            brief, stage.light.exposure);
+        alike.note(results[i]);
       }
       count = 0;
     };
@@ -271,6 +321,7 @@ struct TileTask {
       }
     }
     if (count > 0) flush();
+    return alike.all();
   }
 
   /// Adds a pixel's samples to the film: each pixel counts the same, however many it has.

@@ -27,7 +27,7 @@ struct Corners {
 
 /// Reads the head of a record; false when the triangle has none.
 bool readCorners(const TriangleSet& set, uint32_t triangle, Corners& c) {
-  const uint32_t first = set.attributes[triangle];
+  const uint32_t first = set.triangles[triangle].attributes;
   if (first == kNone) return false;
   const uint32_t head = set.pool[first];
   uint32_t at = first + 1;
@@ -73,7 +73,7 @@ Vec3f turned(const Placement* p, const Vec3f& d) {
 std::array<Vec3f, 3> cornersAt(const TriangleSet& set, uint32_t triangle, const Placement* p) {
   std::array<Vec3f, 3> at;
   for (size_t k = 0; k < 3; ++k) {
-    at[k] = turned(p, set.positions[set.corners[triangle][k]]);
+    at[k] = turned(p, set.positions[set.triangles[triangle].corners[k]]);
     if (p) at[k] += p->origin;
   }
   return at;
@@ -203,7 +203,7 @@ void faceViewer(Surface& s, const Ray& ray) {
 
 float clearness(const World& world, const TriangleSet& set, uint32_t triangle, uint32_t placement,
                 float u, float v) {
-  const SurfaceMaterial& material = world.materials[set.materials[triangle]];
+  const SurfaceMaterial& material = world.materials[set.triangles[triangle].material];
   if (material.matter == Matter::Water) return 1;
   Corners corners;
   readCorners(set, triangle, corners);
@@ -223,7 +223,8 @@ Surface shellAt(const World& world, const Hit& hit, const Ray& ray, float width)
   const Placement* placement = hit.placement == kNone ? nullptr : &world.placements[hit.placement];
   const Part& part = world.parts[placement ? placement->part : 0];
   const TriangleSet& set = part.set(hit.clear);
-  const SurfaceMaterial& m = world.materials[set.materials[hit.triangle]];
+  const TriangleSet::Triangle& triangle = set.triangles[hit.triangle];
+  const SurfaceMaterial& m = world.materials[triangle.material];
 
   Surface s;
   s.base = m.base;
@@ -235,8 +236,8 @@ Surface shellAt(const World& world, const Hit& hit, const Ray& ray, float width)
   s.transmission = m.transmission;
   s.matter = m.matter;
   s.pane = m.pane;
-  s.material = set.materials[hit.triangle];
-  s.piece = (placement ? placement->firstPiece : 0) + set.pieces[hit.triangle];
+  s.material = triangle.material;
+  s.piece = (placement ? placement->firstPiece : 0) + triangle.piece;
   s.point = ray.origin + ray.direction * hit.distance;
   s.facet = normalized(hit.normal);
   const bool behind = dot(s.facet, ray.direction) > 0;

@@ -19,6 +19,8 @@ struct PathResult {
   /// Colour, normal and distance of the first surface, for the smoothing; 0 where there is none.
   Vec3f albedo, normal;
   float distance = 0;
+  /// With Stage::ambient: how much of the sky was seen from there, where it was asked.
+  float open = 0;
   uint32_t rays = 0;
 };
 

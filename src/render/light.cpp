@@ -49,6 +49,7 @@ constexpr float kDarkHorizon = 0.3f, kDarkAbove = 0.13f;
 constexpr float kStarCells = 90, kStarShare = 0.11f, kStarRadius = 0.0008f;
 /// Sine of the elevation whose sky stands for the light of haze.
 constexpr float kHazeUp = 0.05f;
+constexpr int kHorizonSteps = 256;
 /// The sun's disc, and the radius in degrees of the glare that a lens adds.
 constexpr float kShownDisc = 40, kGlare = 2.2f;
 
@@ -92,9 +93,13 @@ Vec3f onStone(double elevation, const Vec3f& sun, const Vec3f& sky, const Vec3f&
 
 }  // namespace
 
+Vec3f towardsSun(double elevation, double azimuth) {
+  const double flat = cosDeg(elevation);
+  return toVec3f({flat * sinDeg(azimuth), sinDeg(elevation), -flat * cosDeg(azimuth)});
+}
+
 Light::Light(const RenderOptions& options, double sunElevation, double sunAzimuth) {
-  const double c = cosDeg(sunElevation);
-  sunDirection = toVec3f({c * sinDeg(sunAzimuth), sinDeg(sunElevation), -c * cosDeg(sunAzimuth)});
+  sunDirection = rt::towardsSun(sunElevation, sunAzimuth);
   sunPlan_ = {static_cast<float>(sinDeg(sunAzimuth)), static_cast<float>(-cosDeg(sunAzimuth))};
   groundAlbedo = srgbToLinear(options.groundColor);
   basisAround(sunDirection, acrossSun_, upSun_);
@@ -135,6 +140,7 @@ Light::Light(const RenderOptions& options, double sunElevation, double sunAzimut
   shownScale_ =
       dusky(over(shown, balanced.radiance(static_cast<float>(sinDeg(45)), 0)), sunElevation);
   nightShown_ = nightLight_ * over(shownScale_, lightScale_);
+  makeHorizon();
 }
 
 Vec3f Light::towardsSun(Vec2f u) const {
@@ -142,10 +148,13 @@ Vec3f Light::towardsSun(Vec2f u) const {
   return normalized(sunDirection + acrossSun_ * (d.x * sunRadius_) + upSun_ * (d.y * sunRadius_));
 }
 
-Vec3f Light::radiance(const Vec3f& d, float up) const {
+float Light::cosineFromSun(const Vec3f& d) const {
   const float flat = std::sqrt(d.x * d.x + d.z * d.z);
-  const float cosine = flat > 0 ? (d.x * sunPlan_.x + d.z * sunPlan_.y) / flat : 0;
-  return adapted(sky_->radiance(up, cosine), night);
+  return flat > 0 ? (d.x * sunPlan_.x + d.z * sunPlan_.y) / flat : 0;
+}
+
+Vec3f Light::radiance(const Vec3f& d, float up) const {
+  return adapted(sky_->radiance(up, cosineFromSun(d)), night);
 }
 
 Vec3f Light::sky(const Vec3f& direction) const {
@@ -161,7 +170,18 @@ Vec3f Light::shownSky(const Vec3f& direction) const {
 
 Vec3f Light::horizon(const Vec3f& direction) const {
   if (!sky_) return uniform_;
-  return (radiance(direction, kHazeUp) * shownScale_ + nightShown_) * shownShare(kHazeUp);
+  const float half = std::clamp((1 - cosineFromSun(direction)) / 2, 0.0f, 1.0f);
+  const float at = std::sqrt(std::sqrt(half)) * kHorizonSteps;
+  const size_t cell = std::min<size_t>(kHorizonSteps - 1, static_cast<size_t>(at));
+  return mix(horizon_[cell], horizon_[cell + 1], at - static_cast<float>(cell));
+}
+
+void Light::makeHorizon() {
+  for (int i = 0; i <= kHorizonSteps; ++i) {
+    const float root = static_cast<float>(i) / kHorizonSteps, half = root * root * root * root;
+    const Vec3f seen = adapted(sky_->radiance(kHazeUp, 1 - 2 * half), night);
+    horizon_.push_back((seen * shownScale_ + nightShown_) * shownShare(kHazeUp));
+  }
 }
 
 float Light::shownShare(float up) const {

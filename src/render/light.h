@@ -7,12 +7,16 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "render/render.h"
 #include "render/sky.h"
 #include "render/vec3f.h"
 
 namespace gable::rt {
+
+/// Unit, towards where the sun stands, degrees.
+Vec3f towardsSun(double elevation, double azimuth);
 
 class Light {
  public:
@@ -51,10 +55,16 @@ class Light {
 
  private:
   Vec3f radiance(const Vec3f& direction, float up) const;
+  /// Of the compass angle between a direction and the sun.
+  float cosineFromSun(const Vec3f& direction) const;
+  void makeHorizon();
   /// How much of the sky's light is shown at that sine of elevation: less of it in the dark.
   float shownShare(float up) const;
 
   std::optional<Sky> sky_;
+  /// What horizon() says, by kHorizonSteps steps of the square root of the sine of half the angle
+  /// from the sun: finer towards it. All that a camera sees through haze asks for it.
+  std::vector<Vec3f> horizon_;
   /// White balance: from the physical sky to its light, and to what is shown of it.
   Vec3f lightScale_, shownScale_, nightLight_, nightShown_;
   Vec3f ground_, uniform_;

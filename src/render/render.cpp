@@ -143,21 +143,20 @@ void orbit(Camera& camera, const Vec3& middle, double degrees) {
 
 struct Renderer::Impl {
   const Scene& scene;
-  double seconds = 0;
+  Stopwatch making;
   rt::World world;
+  double trianglesSeconds = making.lap();
   rt::Tracer tracer;
+  double treeSeconds = making.lap();
   std::vector<rt::Vec3f> points;
   double front;
 
-  Impl(const Scene& s, const TextureSource* textures) : Impl(s, textures, Stopwatch()) {}
-  Impl(const Scene& s, const TextureSource* textures, Stopwatch watch)
+  Impl(const Scene& s, const TextureSource* textures)
       : scene(s),
         world(rt::makeWorld(s, textures)),
         tracer(world),
         points(rt::framingPoints(world)),
-        front(rt::frontAzimuthOf(world)) {
-    seconds = watch.lap();
-  }
+        front(rt::frontAzimuthOf(world)) {}
 
   rt::Subject subject(const RenderOptions& o) const {
     const double foot = o.groundHeight ? *o.groundHeight - world.origin.y : world.footHeight;
@@ -192,8 +191,9 @@ struct Renderer::Impl {
             o.sunAzimuth.value_or(o.frontAzimuth.value_or(front) + 45 - o.orbit)};
   }
 
-  Camera camera(const RenderOptions& o, const rt::Subject& subject, const rt::Light& light) const {
-    Camera camera = rt::chooseCamera(subject, o, light);
+  Camera camera(const RenderOptions& o, const rt::Subject& subject) const {
+    const auto [elevation, azimuth] = sun(o);
+    Camera camera = rt::chooseCamera(subject, o, rt::towardsSun(elevation, azimuth));
     orbit(camera, world.subject.center(), o.orbit);
     return camera;
   }
@@ -267,8 +267,8 @@ struct Renderer::Impl {
   bool anyPane() const {
     for (const rt::Part& part : world.parts) {
       for (const bool clear : {false, true}) {
-        for (const uint32_t m : part.set(clear).materials) {
-          if (world.materials[m].pane) return true;
+        for (const rt::TriangleSet::Triangle& t : part.set(clear).triangles) {
+          if (world.materials[t.material].pane) return true;
         }
       }
     }
@@ -365,8 +365,7 @@ Renderer::Renderer(const Scene& scene, const TextureSource* textures)
 Renderer::~Renderer() = default;
 
 Camera Renderer::cameraOf(const RenderOptions& options) const {
-  const rt::Light light = impl_->light(options);
-  Camera camera = impl_->camera(options, impl_->subject(options), light);
+  Camera camera = impl_->camera(options, impl_->subject(options));
   camera.eye += impl_->world.origin;
   return camera;
 }
@@ -379,9 +378,11 @@ Picture Renderer::render(const RenderOptions& options) const {
 
   const Impl& impl = *impl_;
   Stopwatch watch;
+  picture.stats.seconds.triangles = impl.trianglesSeconds;
+  picture.stats.seconds.tree = impl.treeSeconds;
   const rt::Subject subject = impl.subject(options);
   const rt::Light light = impl.light(options);
-  picture.camera = impl.camera(options, subject, light);
+  picture.camera = impl.camera(options, subject);
   std::tie(picture.sun.elevation, picture.sun.azimuth) = impl.sun(options);
   const rt::Emitters emitters = impl.emitters(options, light, Impl::rooms(options, light));
   const rt::Stage stage =

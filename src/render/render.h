@@ -195,8 +195,9 @@ struct RenderStats {
   uint64_t triangles = 0, storedTriangles = 0;
   uint64_t instances = 0;
   uint64_t rays = 0;
+  /// The first two of what the renderer has made once for all pictures.
   struct {
-    double prepare = 0, trace = 0, denoise = 0;
+    double triangles = 0, tree = 0, prepare = 0, trace = 0, denoise = 0;
   } seconds;
 };
 

@@ -419,7 +419,7 @@ TEST(Render, cutOutTexelsOfLaidMaterialsLetLightThrough) {
   m.leaves.push_back(quad);
   const rt::World world = rt::makeWorld(m.finish(), &textures);
   const rt::TriangleSet& set = world.parts[0].clear;
-  ASSERT_EQ(set.corners.size(), 2u);
+  ASSERT_EQ(set.triangles.size(), 2u);
   constexpr int kSteps = 40;
   double sum = 0;
   int points = 0;

@@ -15,8 +15,7 @@ constexpr uint32_t reverseBits(uint32_t x) {
   x = ((x & 0x55555555U) << 1) | ((x >> 1) & 0x55555555U);
   x = ((x & 0x33333333U) << 2) | ((x >> 2) & 0x33333333U);
   x = ((x & 0x0f0f0f0fU) << 4) | ((x >> 4) & 0x0f0f0f0fU);
-  x = ((x & 0x00ff00ffU) << 8) | ((x >> 8) & 0x00ff00ffU);
-  return (x << 16) | (x >> 16);
+  return __builtin_bswap32(x);
 }
 
 /// A permutation in which a bit depends on lower bits only (Laine and Karras 2011, with the
@@ -30,8 +29,9 @@ constexpr uint32_t permuteUpwards(uint32_t x, uint32_t seed) {
   return x;
 }
 
-constexpr uint32_t nestedScramble(uint32_t x, uint32_t seed) {
-  return reverseBits(permuteUpwards(reverseBits(x), seed));
+/// Of a number whose bits are reversed already.
+constexpr uint32_t nestedScramble(uint32_t reversed, uint32_t seed) {
+  return reverseBits(permuteUpwards(reversed, seed));
 }
 
 /// The second Sobol dimension: its generator matrix is Pascal's triangle modulo 2, whose product
@@ -50,7 +50,7 @@ constexpr float toUnit(uint32_t x) { return static_cast<float>(x >> 8) * 0x1p-24
 }  // namespace
 
 Sampler::Sampler(uint32_t x, uint32_t y, uint32_t sample, uint32_t seed)
-    : pixel_(mix32(x + mix32(y + mix32(seed + 0x9e3779b9U)))), sample_(sample) {}
+    : pixel_(mix32(x + mix32(y + mix32(seed + 0x9e3779b9U)))), sample_(reverseBits(sample)) {}
 
 Vec2f Sampler::point(uint32_t dimension) const {
   const uint32_t h = mix32(pixel_ + dimension * 0x9e3779b9U);
@@ -66,18 +66,26 @@ float Sampler::number(uint32_t dimension) const {
   return toUnit(reverseBits(permuteUpwards(nestedScramble(sample_, h), mix32(h ^ 0x68bc21ebU))));
 }
 
+namespace {
+
+/// Cosine and sine of so many eighths of a turn, up to one to either side: their power series.
+Vec2f ofEighths(float eighths) {
+  const float x = kPif / 4 * eighths, s = x * x;
+  return {1 + s * (-1 / 2.0f + s * (1 / 24.0f + s * (-1 / 720.0f + s * (1 / 40320.0f)))),
+          x * (1 + s * (-1 / 6.0f + s * (1 / 120.0f + s * (-1 / 5040.0f + s * (1 / 362880.0f)))))};
+}
+
+}  // namespace
+
 Vec2f onDisc(Vec2f u) {
   const float a = 2 * u.x - 1, b = 2 * u.y - 1;
   if (a == 0 && b == 0) return {};
-  float r, phi;
   if (std::abs(a) > std::abs(b)) {
-    r = a;
-    phi = kPif / 4 * (b / a);
-  } else {
-    r = b;
-    phi = kPif / 2 - kPif / 4 * (a / b);
+    const Vec2f turn = ofEighths(b / a);
+    return {a * turn.x, a * turn.y};
   }
-  return {r * std::cos(phi), r * std::sin(phi)};
+  const Vec2f turn = ofEighths(a / b);
+  return {b * turn.y, b * turn.x};
 }
 
 Vec3f cosineDirection(const Vec3f& n, Vec2f u) {

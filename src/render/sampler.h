@@ -23,6 +23,7 @@ class Sampler {
   float number(uint32_t dimension) const;
 
  private:
+  /// The sample's bits are reversed.
   uint32_t pixel_, sample_;
 };
 

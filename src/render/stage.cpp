@@ -227,7 +227,7 @@ void lightRoom(const Stage& stage, const Hit& hit, Surface& surface) {
   const Placement* const p =
       hit.placement == kNone ? nullptr : &stage.world.placements[hit.placement];
   const Part& part = stage.world.parts[p ? p->part : 0];
-  const Piece& piece = part.pieces[part.set(hit.clear).pieces[hit.triangle]];
+  const Piece& piece = part.pieces[part.set(hit.clear).triangles[hit.triangle].piece];
   Vec3f middle = piece.middle;
   if (p) middle = p->origin + p->x * middle.x + p->y * middle.y + p->z * middle.z;
   if (piece.size > kLargePane) middle = surface.point;

@@ -54,7 +54,7 @@ bool isWater(const Subject& s, const Hit& hit) {
   const World& w = s.world;
   const Part& part = w.parts[hit.placement == kNone ? 0 : w.placements[hit.placement].part];
   const TriangleSet& set = hit.clear ? part.clear : part.solid;
-  return w.materials[set.materials[hit.triangle]].meanRoughness < kWet;
+  return w.materials[set.triangles[hit.triangle].material].meanRoughness < kWet;
 }
 
 /// Whether what lies at `foot` is the ground of a place and no roof.
@@ -168,7 +168,7 @@ double markInPlace(const Subject& s, const Camera& camera, double ahead) {
          2 * off(std::log2(widthBeside(s, camera)), 0, 4.3);
 }
 
-double mark(const Subject& s, const Light& light, const Camera& camera, double aspect) {
+double mark(const Subject& s, const Vec3f& towardsSun, const Camera& camera, double aspect) {
   const bool place = isPlace(s);
   const double footY = camera.eye.y - kEyeHeight;
   int sides[2] = {0, 0}, close[2] = {0, 0};
@@ -217,10 +217,10 @@ double mark(const Subject& s, const Light& light, const Camera& camera, double a
         if (column < kColumns / 3) ++sides[0];
         if (column >= kColumns - kColumns / 3) ++sides[1];
       }
-      if (dot(n, light.sunDirection) < 0.05f) continue;
+      if (dot(n, towardsSun) < 0.05f) continue;
       Ray shadow;
       shadow.origin = p + n * 0.01f;
-      shadow.direction = light.sunDirection;
+      shadow.direction = towardsSun;
       lit += s.tracer.visibility(shadow) > 0.5f;
     }
   }
@@ -248,7 +248,7 @@ struct Standpoint {
 
 struct Search {
   const Subject& subject;
-  const Light& light;
+  const Vec3f& towardsSun;
   double halfWidth, aspect;
 
   /// Looks from (x, z) in `count` directions, `step` degrees apart about `azimuth`, and keeps the
@@ -264,7 +264,7 @@ struct Search {
       c.eye = foot + Vec3{0, kEyeHeight, 0};
       c.halfWidth = halfWidth;
       c.horizon = kHorizon;
-      const double m = mark(subject, light, c, aspect) - 2 * raised;
+      const double m = mark(subject, towardsSun, c, aspect) - 2 * raised;
       if (m > best.mark) best = {m, c};
     }
   }
@@ -272,13 +272,13 @@ struct Search {
 
 }  // namespace
 
-bool findStandpoint(const Subject& s, const Light& light, double halfWidth, double aspect,
+bool findStandpoint(const Subject& s, const Vec3f& towardsSun, double halfWidth, double aspect,
                     Camera& camera) {
   const Box3& box = s.world.subject;
   const double tall = std::max(0.0, box.max.y - s.groundHeight);
   const double margin = isPlace(s) ? 0 : std::clamp(1.2 * tall, 8.0, 150.0);
   const Vec3 size = box.size();
-  const Search search{s, light, halfWidth, aspect};
+  const Search search{s, towardsSun, halfWidth, aspect};
 
   std::vector<Standpoint> found(kPlaces);
   for (int i = 0; i < kPlaces; ++i) {

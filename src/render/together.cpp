@@ -148,6 +148,7 @@ class Bundle {
         [&](size_t i, const Vec3f& direction, float open) {
           const Vec3f light = skyBehind(stage_, direction, open);
           results_[i].indirect = withoutFireflies(carried_[i] * values_[i] * light, limit_);
+          results_[i].open = open;
         });
   }
 

@@ -9,6 +9,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
 #include <limits>
 #include <vector>
@@ -82,53 +83,86 @@ Hit hitOf(const World& world, const RTCHit& h, float distance) {
   return hit;
 }
 
-/// What a ray gathers among coinciding faces.
-struct Coinciding {
-  Vec3f direction;
-  Hit best;
-  bool found = false;
+/// How far from a hit others coincide with it: distances to one plane differ by rounding, the more
+/// the flatter the ray meets it.
+float slackAt(float distance, const Vec3f& normal, const Vec3f& direction) {
+  const float lengths = std::sqrt(dot(normal, normal) * dot(direction, direction));
+  const float cosine = std::abs(dot(normal, direction));
+  return (5e-5f + 1e-6f * distance) * lengths / std::max(0.05f * lengths, cosine + 1e-30f);
+}
 
-  void note(const Hit& hit) {
-    if (!found || shows(hit, best)) best = hit;
-    found = true;
+/// The nearest faces that a ray has met so far: those that coincide with the nearest of all.
+class Coinciding {
+ public:
+  /// The ray ends there.
+  void until(float end) { end_ = end; }
+  /// Returns how far the ray has still to be followed. `facing`: whether the face looks at the ray.
+  float note(const RTCHit& hit, float distance, float slack, bool facing) {
+    end_ = std::min(end_, distance + slack);
+    unsigned kept = 0;
+    for (unsigned i = 0; i < count_; ++i) {
+      if (met_[i].distance <= end_) met_[kept++] = met_[i];
+    }
+    met_[std::min(kept, kMost - 1)] = {distance, facing, hit};
+    count_ = std::min(kept + 1, kMost);
+    return end_;
+  }
+
+  /// The face that shows where they coincide; false where there is none.
+  bool best(const World& world, Hit& hit) const {
+    if (count_ == 0) return false;
+    const Met* best = met_;
+    for (unsigned i = 1; i < count_; ++i) {
+      if (shows(met_[i], *best)) best = &met_[i];
+    }
+    hit = hitOf(world, best->hit, best->distance);
+    return true;
   }
 
  private:
-  /// Whether `a` shows where `a` and `b` coincide.
-  bool shows(const Hit& a, const Hit& b) const {
-    const bool af = dot(a.normal, direction) < 0, bf = dot(b.normal, direction) < 0;
-    if (af != bf) return af;
-    // kNone + 1 is 0: what is placed comes after what is merged.
-    if (a.placement != b.placement) return a.placement + 1 > b.placement + 1;
-    if (a.clear != b.clear) return a.clear;
-    return a.triangle > b.triangle;
+  static constexpr unsigned kMost = 8;
+  /// Without values of their own: most are never used.
+  struct Met {
+    float distance;
+    bool facing;
+    RTCHit hit;
+  };
+
+  static bool shows(const Met& a, const Met& b) {
+    if (a.facing != b.facing) return a.facing;
+    // Of what is merged the number is -1, and 0 with 1 more: what is placed comes after it.
+    const unsigned of = a.hit.instID[0] + 1, other = b.hit.instID[0] + 1;
+    if (of != other) return of > other;
+    if (a.hit.geomID != b.hit.geomID) return a.hit.geomID == kClear;
+    return a.hit.primID > b.hit.primID;
   }
+
+  float end_ = 0;
+  unsigned count_ = 0;
+  Met met_[kMost];
 };
 
 /// The same of rays by their number.
 struct OrderContext {
   RTCIntersectContext embree;
-  const World* world = nullptr;
   Coinciding* rays = nullptr;
 };
 
-/// Looks at every hit of a ray and lets it go on.
+/// Keeps a hit, and lets the ray go on as far as others may coincide with it.
 void noteHit(const RTCFilterFunctionNArguments* args) {
   auto& order = *reinterpret_cast<OrderContext*>(args->context);
-  for (unsigned i = 0; i < args->N; ++i) {
+  const unsigned n = args->N;
+  for (unsigned i = 0; i < n; ++i) {
     if (args->valid[i] != -1) continue;
-    args->valid[i] = 0;
-    const RTCHit h = rtcGetHitFromHitN(args->hit, args->N, i);
-    const Hit hit = hitOf(*order.world, h, RTCRayN_tfar(args->ray, args->N, i));
-    order.rays[RTCRayN_id(args->ray, args->N, i)].note(hit);
+    const RTCHit hit = rtcGetHitFromHitN(args->hit, n, i);
+    // Both in the frame of the placement.
+    const Vec3f normal{hit.Ng_x, hit.Ng_y, hit.Ng_z};
+    const Vec3f direction{RTCRayN_dir_x(args->ray, n, i), RTCRayN_dir_y(args->ray, n, i),
+                          RTCRayN_dir_z(args->ray, n, i)};
+    float& end = RTCRayN_tfar(args->ray, n, i);
+    const float slack = slackAt(end, normal, direction);
+    end = order.rays[RTCRayN_id(args->ray, n, i)].note(hit, end, slack, dot(normal, direction) < 0);
   }
-}
-
-/// How far from a hit others coincide with it: distances to one plane differ by rounding, the more
-/// the flatter the ray meets it.
-float slackAt(const Ray& ray, const Hit& hit) {
-  const float cosine = std::abs(dot(normalized(hit.normal), normalized(ray.direction)));
-  return (5e-5f + 1e-6f * hit.distance) / std::max(0.05f, cosine);
 }
 
 /// Counts the faces that a ray leaves things by, less those it enters them by.
@@ -154,7 +188,8 @@ RTCGeometry makeGeometry(RTCDevice device, const TriangleSet& set) {
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                              set.positions.data(), 0, sizeof(Vec3f), set.positions.size() - 1);
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                             set.corners.data(), 0, sizeof(set.corners[0]), set.corners.size());
+                             set.triangles.data(), offsetof(TriangleSet::Triangle, corners),
+                             sizeof(TriangleSet::Triangle), set.triangles.size());
   return geometry;
 }
 
@@ -191,7 +226,7 @@ struct Tracer::Impl {
   }
 
   void addSet(RTCScene scene, const TriangleSet& set, unsigned id, ClearGeometry* clear) {
-    if (set.corners.empty()) return;
+    if (set.triangles.empty()) return;
     RTCGeometry geometry = makeGeometry(device, set);
     if (clear) {
       rtcSetGeometryUserData(geometry, clear);
@@ -232,23 +267,18 @@ bool Tracer::intersect(const Ray& ray, Hit& hit) const {
 }
 
 bool Tracer::intersectOrdered(const Ray& ray, Hit& hit) const {
-  if (!intersect(ray, hit)) return false;
-  const float slack = slackAt(ray, hit);
-  Coinciding coinciding{ray.direction, {}, false};
+  Coinciding coinciding;
+  coinciding.until(ray.to);
   OrderContext order;
   rtcInitIntersectContext(&order.embree);
   order.embree.filter = noteHit;
-  order.world = &impl_->world;
   order.rays = &coinciding;
   RTCRayHit r;
   r.ray = embreeRay(ray);
-  r.ray.tnear = std::max(ray.from, hit.distance - slack);
-  r.ray.tfar = std::min(ray.to, hit.distance + slack);
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(impl_->scenes[0], &order.embree, &r);
-  if (coinciding.found) hit = coinciding.best;
-  return true;
+  return coinciding.best(impl_->world, hit);
 }
 
 float Tracer::visibility(const Ray& ray) const {
@@ -304,39 +334,19 @@ static_assert(kNone == RTC_INVALID_GEOMETRY_ID);
 
 uint32_t Tracer::intersectTogether(std::span<const Ray> rays, Hit* hits) const {
   RTCRayHit16 packet;
-  Valid valid = validLanes(rays);
+  const Valid valid = validLanes(rays);
   for (size_t i = 0; i < kPacket; ++i) setLane(packet.ray, i, i < rays.size() ? rays[i] : Ray());
   clearHits(packet.hit);
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect16(valid.lanes, impl_->scenes[0], &context, &packet);
-
   Coinciding coinciding[kPacket];
-  uint32_t found = 0;
-  for (size_t i = 0; i < rays.size(); ++i) {
-    if (valid.lanes[i] == 0 || packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) {
-      valid.lanes[i] = 0;
-      continue;
-    }
-    found |= 1u << i;
-    const RTCHit h = rtcGetHitFromHitN(reinterpret_cast<RTCHitN*>(&packet.hit), kPacket,
-                                       static_cast<unsigned>(i));
-    hits[i] = hitOf(impl_->world, h, packet.ray.tfar[i]);
-    coinciding[i].direction = rays[i].direction;
-    const float slack = slackAt(rays[i], hits[i]);
-    packet.ray.tnear[i] = std::max(rays[i].from, hits[i].distance - slack);
-    packet.ray.tfar[i] = std::min(rays[i].to, hits[i].distance + slack);
-  }
-  if (found == 0) return 0;
-  clearHits(packet.hit);
+  for (size_t i = 0; i < rays.size(); ++i) coinciding[i].until(rays[i].to);
   OrderContext order;
   rtcInitIntersectContext(&order.embree);
   order.embree.filter = noteHit;
-  order.world = &impl_->world;
   order.rays = coinciding;
   rtcIntersect16(valid.lanes, impl_->scenes[0], &order.embree, &packet);
+  uint32_t found = 0;
   for (size_t i = 0; i < rays.size(); ++i) {
-    if (coinciding[i].found) hits[i] = coinciding[i].best;
+    if (coinciding[i].best(impl_->world, hits[i])) found |= 1u << i;
   }
   return found;
 }

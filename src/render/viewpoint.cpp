@@ -151,7 +151,7 @@ bool isTower(const Subject& subject) {
   return !isPlace(subject) && std::max(size.x, size.z) < 2 * tall;
 }
 
-Camera standardCamera(const Subject& subject, const RenderOptions& options, const Light& light,
+Camera standardCamera(const Subject& subject, const RenderOptions& options, const Vec3f& towardsSun,
                       double aspect) {
   const double given = options.fov ? tanDeg(std::clamp(*options.fov, 1.0, 150.0) / 2) : 0;
   const double toFront = subject.frontAzimuth + 180;
@@ -179,7 +179,7 @@ Camera standardCamera(const Subject& subject, const RenderOptions& options, cons
       const bool tower = isTower(subject);
       const double halfWidth =
           given > 0 ? given : lens(tall > 60 && !tower && !isPlace(subject) ? 20 : 26);
-      if (!tower && findStandpoint(subject, light, halfWidth, aspect, camera)) return camera;
+      if (!tower && findStandpoint(subject, towardsSun, halfWidth, aspect, camera)) return camera;
       camera = cameraTowards(toFront - 30, 0);
       camera.halfWidth = halfWidth;
       frameLevel(camera, subject, aspect, subject.groundHeight + kEyeHeight);
@@ -218,9 +218,9 @@ Camera cameraTowards(double azimuth, double pitch) {
   return c;
 }
 
-Camera chooseCamera(const Subject& subject, const RenderOptions& options, const Light& light) {
+Camera chooseCamera(const Subject& subject, const RenderOptions& options, const Vec3f& towardsSun) {
   const double aspect = static_cast<double>(options.width) / std::max(1u, options.height);
-  if (!options.eye && !options.target) return standardCamera(subject, options, light, aspect);
+  if (!options.eye && !options.target) return standardCamera(subject, options, towardsSun, aspect);
 
   const Vec3 target =
       options.target ? *options.target - subject.world.origin : subject.world.subject.center();
@@ -229,7 +229,7 @@ Camera chooseCamera(const Subject& subject, const RenderOptions& options, const 
     camera.eye = *options.eye - subject.world.origin;
     camera.halfWidth = lens(options.view == PictureView::Street ? 26 : 40);
   } else {
-    camera = standardCamera(subject, options, light, aspect);
+    camera = standardCamera(subject, options, towardsSun, aspect);
     if (camera.parallel) {
       camera.eye = {target.x, camera.eye.y, target.z};
       return camera;

@@ -30,16 +30,16 @@ double frontAzimuthOf(const World& world);
 Camera cameraTowards(double azimuth, double pitch);
 
 /// The options' view with their overrides applied. Street views ask the tracer for a free place and
-/// `light` for the sunny side.
-Camera chooseCamera(const Subject& subject, const RenderOptions& options, const Light& light);
+/// `towardsSun`, unit, for the sunny side.
+Camera chooseCamera(const Subject& subject, const RenderOptions& options, const Vec3f& towardsSun);
 
 /// Of somebody who stands in the street, in metres above it.
 constexpr double kEyeHeight = 1.62;
 
 /// The best place for a street view, kEyeHeight above the ground there; false when no place outside
 /// things was found.
-bool findStandpoint(const Subject& subject, const Light& light, double halfWidth, double aspect,
-                    Camera& camera);
+bool findStandpoint(const Subject& subject, const Vec3f& towardsSun, double halfWidth,
+                    double aspect, Camera& camera);
 
 /// The ray through a point of the picture, from left and from below in [0, 1]. Unit direction.
 Ray cameraRay(const Camera& camera, double aspect, double x, double y);

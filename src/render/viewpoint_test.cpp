@@ -55,10 +55,10 @@ TEST(Viewpoint, viewsHoldTheWholeSubject) {
        {Vec3{10, 8, 12}, Vec3{80, 5, 10}, Vec3{20, 120, 20}, Vec3{300, 1, 200}}) {
     const Set s(boxScene(size));
     RenderOptions o;
-    const Light light(o, 38, 225);
+    const Vec3f sun = towardsSun(38, 225);
     for (const PictureView view : {PictureView::Iso, PictureView::Top, PictureView::Front}) {
       o.view = view;
-      const Camera c = chooseCamera(s.subject, o, light);
+      const Camera c = chooseCamera(s.subject, o, sun);
       const Reach r = reachOf(c, s.subject.points, 16.0 / 9);
       EXPECT_GE(r.left, 0.03);
       EXPECT_LE(r.right, 0.97);
@@ -72,10 +72,10 @@ TEST(Viewpoint, viewsHoldTheWholeSubject) {
 TEST(Viewpoint, frontAndStreetKeepVerticalsUpright) {
   const Set s(streetScene());
   RenderOptions o;
-  const Light light(o, 38, 225);
+  const Vec3f sun = towardsSun(38, 225);
   for (const PictureView view : {PictureView::Front, PictureView::Street}) {
     o.view = view;
-    const Camera c = chooseCamera(s.subject, o, light);
+    const Camera c = chooseCamera(s.subject, o, sun);
     EXPECT_EQ(c.up, (Vec3{0, 1, 0}));
     EXPECT_EQ(c.forward.y, 0);
     EXPECT_LT(c.horizon, 0.45);
@@ -89,7 +89,7 @@ TEST(Viewpoint, streetHoldsAllOfATower) {
     o.view = PictureView::Street;
     for (const uint32_t height : {500u, 900u, 2000u}) {
       o.height = height;
-      const Camera c = chooseCamera(s.subject, o, Light(o, 38, 225));
+      const Camera c = chooseCamera(s.subject, o, towardsSun(38, 225));
       EXPECT_NEAR(c.eye.y, s.subject.groundHeight + kEyeHeight, 1e-9);
       const Reach r = reachOf(c, s.subject.points, 1600.0 / height);
       EXPECT_GE(r.left, 0.03);
@@ -104,7 +104,7 @@ TEST(Viewpoint, streetEyeStandsOnOpenGround) {
   const Set s(streetScene());
   RenderOptions o;
   o.view = PictureView::Street;
-  const Camera c = chooseCamera(s.subject, o, Light(o, 38, 225));
+  const Camera c = chooseCamera(s.subject, o, towardsSun(38, 225));
   Ray up;
   up.origin = toVec3f(c.eye);
   up.direction = {0, 1, 0};
@@ -128,7 +128,7 @@ TEST(Viewpoint, streetEyeKeepsAwayFromWalls) {
     const Set s(m.finish());
     RenderOptions o;
     o.view = PictureView::Street;
-    const Camera c = chooseCamera(s.subject, o, Light(o, 38, 225));
+    const Camera c = chooseCamera(s.subject, o, towardsSun(38, 225));
     for (const double side : {-1.0, 1.0}) {
       Ray aside;
       aside.origin = toVec3f(c.eye);
@@ -159,7 +159,7 @@ TEST(Viewpoint, streetEyeStandsOnItsHill) {
   const Set s(hillTown());
   RenderOptions o;
   o.view = PictureView::Street;
-  const Camera c = chooseCamera(s.subject, o, Light(o, 38, 225));
+  const Camera c = chooseCamera(s.subject, o, towardsSun(38, 225));
   Ray down;
   down.origin = toVec3f(c.eye);
   down.direction = {0, -1, 0};
@@ -182,7 +182,7 @@ TEST(Viewpoint, frontEyeIsAboveItsHill) {
   o.target = Vec3{0, 60, 0};
   for (const PictureView view : {PictureView::Iso, PictureView::Front, PictureView::Street}) {
     o.view = view;
-    const Camera c = chooseCamera(s.subject, o, Light(o, 38, 225));
+    const Camera c = chooseCamera(s.subject, o, towardsSun(38, 225));
     Ray up;
     up.origin = toVec3f(c.eye);
     up.direction = {0, 1, 0};
@@ -217,7 +217,7 @@ TEST(Viewpoint, eyeAndTargetReplaceTheView) {
   RenderOptions o;
   o.eye = Vec3{10, 5, 0};
   o.target = Vec3{0, 5, 0};
-  const Camera c = chooseCamera(s.subject, o, Light(o, 38, 225));
+  const Camera c = chooseCamera(s.subject, o, towardsSun(38, 225));
   EXPECT_NEAR(c.forward.x, -1, 1e-12);
   EXPECT_NEAR(c.right.z, -1, 1e-12);
   EXPECT_EQ(c.eye + s.world.origin, (Vec3{10, 5, 0}));

@@ -241,10 +241,10 @@ class Builder {
         first = static_cast<uint32_t>(set.positions.size());
         for (const Vec3& p : points_) set.positions.push_back(usable(p) ? toVec3f(p) : Vec3f{});
       }
-      set.corners.push_back({first + at3[0], first + at3[1], first + at3[2]});
-      set.materials.push_back(material);
-      set.pieces.push_back(piece);
-      set.attributes.push_back(addAttributes(set, leaf, at, mesh, triangles, t, material));
+      set.triangles.push_back({{first + at3[0], first + at3[1], first + at3[2]},
+                               material,
+                               piece,
+                               addAttributes(set, leaf, at, mesh, triangles, t, material)});
     }
   }
 
@@ -314,7 +314,7 @@ class Builder {
     // Whoever reads four floats at the last position stays inside the buffer.
     for (Part& part : world_.parts) {
       part.footArea =
-          footArea(part.solid.corners.empty() ? part.clear.positions : part.solid.positions);
+          footArea(part.solid.triangles.empty() ? part.clear.positions : part.solid.positions);
       part.solid.positions.emplace_back();
       part.clear.positions.emplace_back();
     }
@@ -413,10 +413,11 @@ void addFraming(const TriangleSet& set, const Placement* placement, const Cut* c
     if (!cut || cut->beyond(p) <= 0) points.push_back(p);
   }
   if (!cut) return;
-  const size_t stride = 1 + set.corners.size() / most;
-  for (size_t i = 0; i < set.corners.size(); i += stride) {
+  const size_t stride = 1 + set.triangles.size() / most;
+  for (size_t i = 0; i < set.triangles.size(); i += stride) {
+    const std::array<uint32_t, 3>& corners = set.triangles[i].corners;
     for (size_t k = 0; k < 3; ++k) {
-      const Vec3f a = at(set.corners[i][k]), b = at(set.corners[i][(k + 1) % 3]);
+      const Vec3f a = at(corners[k]), b = at(corners[(k + 1) % 3]);
       if ((cut->beyond(a) > 0) != (cut->beyond(b) > 0)) points.push_back(cut->between(a, b));
     }
   }
@@ -461,7 +462,7 @@ std::vector<Vec3f> framingPoints(const World& world, const Cut* cut, size_t limi
       world.placements.empty() ? 0 : std::max<size_t>(8, limit / world.placements.size());
   for (const Placement& p : world.placements) {
     const Part& part = world.parts[p.part];
-    addFraming(part.solid.corners.empty() ? part.clear : part.solid, &p, cut, each, points);
+    addFraming(part.solid.triangles.empty() ? part.clear : part.solid, &p, cut, each, points);
   }
   std::vector<Vec3f> within;
   for (const Vec3f& p : points) {

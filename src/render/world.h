@@ -31,13 +31,16 @@ using AttributePool = std::vector<uint32_t>;
 struct TriangleSet {
   /// With one more at the end that no triangle uses.
   std::vector<Vec3f> positions;
-  std::vector<std::array<uint32_t, 3>> corners;
-  /// Index into World::materials, by triangle.
-  std::vector<uint32_t> materials;
-  /// Index into Part::pieces, by triangle.
-  std::vector<uint32_t> pieces;
-  /// Where a triangle's record begins in the pool, or kNone.
-  std::vector<uint32_t> attributes;
+  /// All that a hit asks of one lies together in memory.
+  struct Triangle {
+    /// Indices into `positions`.
+    std::array<uint32_t, 3> corners;
+    /// Indices into World::materials and Part::pieces.
+    uint32_t material = 0, piece = 0;
+    /// Where its record begins in the pool, or kNone.
+    uint32_t attributes = kNone;
+  };
+  std::vector<Triangle> triangles;
   AttributePool pool;
 };
 
@@ -61,7 +64,7 @@ struct Part {
   /// Sum over upright triangles of area and of area * (cos, sin) of four times the compass angle
   /// of their normals: the directions in which its walls look, quarter turns apart.
   double wallArea = 0, wallCos = 0, wallSin = 0;
-  uint64_t triangles() const { return solid.corners.size() + clear.corners.size(); }
+  uint64_t triangles() const { return solid.triangles.size() + clear.triangles.size(); }
   const TriangleSet& set(bool isClear) const { return isClear ? clear : solid; }
 };
 

@@ -174,13 +174,11 @@ Image pictureOf(const SurfaceField& field, const LibraryMaterial& m, MaterialPic
   return picture == MaterialPicture::Normal ? normalPicture(field, m) : surfacePicture(field, m);
 }
 
-Result<std::string> encodeMaterialPicture(const SurfaceField& field, const LibraryMaterial& m,
-                                          MaterialPicture picture) {
+Result<std::string> encodeMaterialPicture(Image image, MaterialPicture picture) {
   // Of normals, more pixels of less quality are nearer than fewer of more, down to the least
   // quality. Grass and leaves are noise, which takes the most and shows the least.
   constexpr std::array<size_t, 3> kMostBytes{56'000, 44'000, 20'000};
   constexpr int kLeast = 30;
-  Image image = pictureOf(field, m, picture);
   const bool color = picture == MaterialPicture::Color;
   const int best = color ? 75 : 60;
   for (int quality = best;; quality -= 10) {

@@ -45,7 +45,6 @@ Image pictureOf(const SurfaceField& field, const LibraryMaterial& m, MaterialPic
 inline constexpr size_t kMostMaterialBytes = 120'000;
 /// As JPEG, in a quality that falls to 30 while the colour has more than 56 kB, the normals more
 /// than 44, the rest more than 20; then at half the size. Those of the library then fit.
-Result<std::string> encodeMaterialPicture(const SurfaceField& field, const LibraryMaterial& m,
-                                          MaterialPicture picture);
+Result<std::string> encodeMaterialPicture(Image image, MaterialPicture picture);
 
 }  // namespace gable

@@ -70,7 +70,7 @@ TEST(Surface, noMaterialHasASeamOrLargePictures) {
     size_t bytes = 0;
     for (const auto picture :
          {MaterialPicture::Color, MaterialPicture::Normal, MaterialPicture::Surface}) {
-      auto jpeg = encodeMaterialPicture(field, m, picture);
+      auto jpeg = encodeMaterialPicture(pictureOf(field, m, picture), picture);
       EXPECT_TRUE(jpeg.ok());
       if (jpeg.ok()) bytes += jpeg->size();
     }
