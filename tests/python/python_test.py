@@ -125,7 +125,7 @@ class Warned(unittest.TestCase):
         return result, all
 
     def test_a_derivation_tells_place_and_hint_once(self):
-        rules = gable.Rules.parse('@StartRule\nLot --> extrude(4)\n  texture("nowhere.png") X.\n', "house.cga")
+        rules = gable.Rules.parse('attr picture = "nowhere.png"\n@StartRule\nLot --> extrude(4) texture(picture) X.\n', "house.cga")
         model, all = self.told(lambda: gable.derive(rules, gable.Shapes.lot(9, 9)), times=3)
         self.assertEqual(len(all), 1, [str(w.message) for w in all])
         told = all[0].message.message
