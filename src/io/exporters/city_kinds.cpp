@@ -105,6 +105,8 @@ bool isSolitary(CityKind kind) {
 
 bool isOpening(CityKind kind) { return kind == CityKind::Window || kind == CityKind::Door; }
 
+bool holdsOpenings(CityKind kind) { return kind == CityKind::Wall || kind == CityKind::Roof; }
+
 CityKind cityKindNamed(std::string_view name) {
   for (size_t k = 1; k < kCityKinds; ++k) {
     const CityKindSpec& s = kSpecs[k];
@@ -210,6 +212,7 @@ CityParts::CityParts(const Scene& scene) {
     return part.kind == CityKind::Unknown ? std::nullopt : std::optional(part);
   });
   said_ = wholesOf(scene, [this](const Leaf& leaf) { return std::optional(saidBy(leaf)); });
+  findOpenings(scene);
   leafCounts_ = prototypeLeafCounts(scene);
   countUses(scene);
 }
@@ -295,6 +298,21 @@ CityParts::Wholes CityParts::wholesOf(const Scene& scene, PartOf&& partOf) {
     }
   }
   return out;
+}
+
+void CityParts::findOpenings(const Scene& scene) {
+  hasOpening_.assign(scene.prototypes.size(), false);
+  for (size_t p = 0; p < scene.prototypes.size(); ++p) {
+    const Prototype& prototype = scene.prototypes[p];
+    for (uint32_t l = 0; l < prototype.leafCount && !hasOpening_[p]; ++l) {
+      work();
+      hasOpening_[p] = isOpening(of(scene.leaves[prototype.firstLeaf + l]).kind);
+    }
+    for (uint32_t i = 0; i < prototype.instanceCount && !hasOpening_[p]; ++i) {
+      work();
+      hasOpening_[p] = hasOpening_[scene.instances[prototype.firstInstance + i].prototype];
+    }
+  }
 }
 
 void CityParts::countUses(const Scene& scene) {

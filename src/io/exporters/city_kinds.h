@@ -6,6 +6,7 @@
 //   1. the attribute cityPart of the leaf, which rules set: a name of the table below, or the word
 //      that CityJSON or IFC have for it ("WallSurface", "IfcWall");
 //   2. the label (@Label) or the tag of the nearest shape above it that has one which says it;
+//      names go before it where they say a window or a door in a wall or a roof;
 //   3. the last word of the leaf's name that says it: FrontDoor is a door, DoorWall a wall;
 //   4. the last such word of the rule that made it.
 // Of a name only what follows its last dot counts: what stands before is the name of an import.
@@ -75,6 +76,8 @@ bool isOfBuilding(CityKind kind);
 bool isSolitary(CityKind kind);
 /// Has a semantic surface for each of it: windows and doors.
 bool isOpening(CityKind kind);
+/// Openings are in it: walls and roofs.
+bool holdsOpenings(CityKind kind);
 
 /// A kind by a name of its row, whatever the case of its letters; Unknown for any other text.
 CityKind cityKindNamed(std::string_view name);
@@ -121,6 +124,8 @@ class CityParts {
   const CityPart* wholePart(uint32_t prototype) const { return named_.one(prototype); }
   /// The same by attributes alone; its kind may be unknown.
   const CityPart* wholeSaid(uint32_t prototype) const { return said_.one(prototype); }
+  /// Names or attributes say an opening of some leaf of a prototype, instances expanded.
+  bool hasOpening(uint32_t prototype) const { return hasOpening_[prototype]; }
   /// Of a prototype, instances expanded.
   uint64_t leafCount(uint32_t prototype) const { return leafCounts_[prototype]; }
   /// How often instances and roots show a prototype, 2 for more.
@@ -142,6 +147,7 @@ class CityParts {
   template <class PartOf>
   static Wholes wholesOf(const Scene& scene, PartOf&& partOf);
   void countUses(const Scene& scene);
+  void findOpenings(const Scene& scene);
   uint32_t numberOf(const std::string& text);
 
   CityKind kindOf(const CityWord& name, const Leaf& leaf) const;
@@ -156,6 +162,7 @@ class CityParts {
   std::map<std::string, uint32_t> textNumbers_;
   std::vector<std::string> unknownWords_;
   Wholes named_, said_;
+  std::vector<bool> hasOpening_;
   std::vector<uint64_t> leafCounts_;
   std::vector<uint8_t> uses_;
 };

@@ -151,6 +151,26 @@ TEST(CityJsonWriter, labelsSayWhatSurfacesAre) {
   EXPECT_GE(types["WallSurface"], 1);
 }
 
+// The panes of a dormer.
+TEST(Ifc, namesSayOpeningsInLabelledWallsAndRoofs) {
+  City c;
+  c.box("Tiles", {0, 0, 0}, {2, 2, 2});
+  c.box("Glass", {0.5, 0.5, 2}, {1, 1, 0.1});
+  const uint32_t dormer = c.prototype("Dormer");
+  c.instance(dormer, Frame::moved({1, 1, 0}));
+  c.instance(dormer, Frame::moved({5, 1, 0}));
+  c.root("Long Street 7", c.prototype("Lot"), Frame{});
+  WriteOptions options;
+  options.labelsOf = [](size_t) {
+    return std::vector<LabelledLeaves>{{0, 2, 1, "roof"}, {2, 4, 2, "roof"}};
+  };
+  const std::string path = inWritten("dormers.ifc");
+  ASSERT_TRUE(writeModel(c.scene, path, options).ok());
+  const std::string text = readFile(path).value();
+  EXPECT_EQ(countOf(text, "=IFCROOF("), 2u);
+  EXPECT_EQ(countOf(text, "=IFCWINDOW("), 2u);
+}
+
 TEST(Ifc, labelsSayWhatElementsAre) {
   WriteOptions options;
   std::vector<LabelledLeaves> labels;

@@ -32,6 +32,10 @@ CityPart RootParts::next(const Leaf& leaf) {
   if (!label) return kinds_.of(leaf);
   CityPart part = kinds_.saidBy(leaf);
   if (part.kind != CityKind::Unknown) return part;
+  if (holdsOpenings(label->kind)) {
+    const CityPart named = kinds_.of(leaf);
+    if (isOpening(named.kind)) return named;
+  }
   part.kind = label->kind;
   part.shape = label->shape;
   return part;
@@ -42,15 +46,18 @@ std::optional<CityPart> RootParts::whole(uint32_t prototype) {
   const uint64_t end = at_ + kinds_.leafCount(prototype);
   const CityPart* said = kinds_.wholeSaid(prototype);
   if (said && said->kind != CityKind::Unknown) return *said;
+  const CityPart* named = kinds_.wholePart(prototype);
   if (label) {
+    const bool holds = holdsOpenings(label->kind);
+    if (holds && named && isOpening(named->kind) && label->end >= end) return *named;
     if (!said || label->first != at_ || label->end != end) return std::nullopt;
+    if (holds && kinds_.hasOpening(prototype)) return std::nullopt;
     CityPart part = *said;
     part.kind = label->kind;
     part.shape = label->shape;
     return part;
   }
   const bool labelWithin = near_ < labels_.size() && labels_[near_].first < end;
-  const CityPart* named = kinds_.wholePart(prototype);
   return named && !labelWithin ? std::optional(*named) : std::nullopt;
 }
 
