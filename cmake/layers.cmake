@@ -1,17 +1,28 @@
 # The layers in the order of who may use whom; tools/layers.toml holds the rule that a test checks.
 set(GABLE_LAYERS base math geom program lang dialects language material shape scene builtins runtime io render city tiles engine cases json lsp studio c)
 
-# gable_layer(NAME [LINK libs...] [PRIVATE libs...]): the static library gable_NAME from all .cpp files of
-# the folder, tests (*_test.cpp) left out; those become the program test_NAME.
+# gable_layer(NAME [LINK libs...] [PRIVATE libs...] [EXCLUDE patterns...] [EXCLUDE_IN_PAGES patterns...]): the static
+# library gable_NAME from all .cpp files of the folder, tests (*_test.cpp) left out; those become the program test_NAME.
+# The engine within a page leaves out other files, those of EXCLUDE_IN_PAGES.
 function(gable_layer name)
-  cmake_parse_arguments(ARG "" "" "LINK;PRIVATE;EXCLUDE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "LINK;PRIVATE;EXCLUDE;EXCLUDE_IN_PAGES" ${ARGN})
+  set_property(GLOBAL PROPERTY gable_pages_exclude_${name} ${ARG_EXCLUDE_IN_PAGES})
+  if(EMSCRIPTEN)
+    set(ARG_EXCLUDE ${ARG_EXCLUDE_IN_PAGES})
+  endif()
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   set(tests ${sources})
   list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
   list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
+  set(all ${sources})
   foreach(pattern ${ARG_EXCLUDE})
     list(FILTER sources EXCLUDE REGEX "${pattern}")
   endforeach()
+  # What stands in a page in the place of what is left out there.
+  if(ARG_EXCLUDE_IN_PAGES)
+    list(REMOVE_ITEM all ${sources})
+    set_property(GLOBAL PROPERTY gable_pages_sources_${name} "${all}")
+  endif()
   if(sources)
     add_library(gable_${name} STATIC ${sources})
     target_include_directories(gable_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)

@@ -11,14 +11,15 @@
 
 Lengths are metres, angles degrees. The frame is right-handed with y up: +x is east, -z is north.
 Rules, Shapes and Model never change once they are made. What goes wrong is raised as gable.Error,
-with the messages; what is only a warning stands in `messages` of the result.
+with the messages; what is only a warning stands in `messages` of the result, and Python's
+`warnings` show each once as gable.Warning.
 """
 
 from gable._dataset import Dataset, dataset
 from gable._derive import derive
 from gable._gable import version as __version__
-from gable._messages import Error, Message
-from gable._model import Leaf, Material, Mesh, Model, Parts, Report, ShapeReports
+from gable._messages import Error, Message, Warning
+from gable._model import Leaf, Material, Mesh, Model, PartMesh, Parts, Report, ShapeReports
 from gable._rules import Attribute, Rule, Rules
 from gable._shapes import Outline, Shapes
 
@@ -32,12 +33,14 @@ __all__ = [
     "Message",
     "Model",
     "Outline",
+    "PartMesh",
     "Parts",
     "Report",
     "Rule",
     "Rules",
     "ShapeReports",
     "Shapes",
+    "Warning",
     "dataset",
     "derive",
 ]

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from gable import _gable
-from gable._messages import Error, Message, messages_of, path_text
+from gable._messages import Error, Message, messages_of, path_text, warn_of
 from gable._rules import Rules
 from gable._shapes import Shapes
 
@@ -103,4 +103,5 @@ def dataset(
     messages = messages_of(result.pop("messages"))
     if not result.pop("ok"):
         raise Error(messages)
+    warn_of(messages)
     return Dataset(folder=path_text(folder), messages=messages, **result)

@@ -4,11 +4,12 @@
 
 from __future__ import annotations
 
+import difflib
 from collections.abc import Callable, Mapping
 from typing import Any
 
 from gable import _gable
-from gable._messages import at_least
+from gable._messages import Message, at_least
 from gable._model import Model
 from gable._rules import Rules
 from gable._shapes import Shapes
@@ -36,6 +37,8 @@ def derive(
 
     `progress` is called with the number of shapes that are done, and of all. Ctrl-C and what it
     raises end the derivation. Other threads of Python run meanwhile.
+
+    Warnings are in `messages` of the model, and Python's `warnings` show each once as gable.Warning.
     """
     for name, value, kind in (("rules", rules, Rules), ("shapes", shapes, Shapes)):
         if not isinstance(value, kind):
@@ -57,4 +60,23 @@ def derive(
             progress=progress,
         ),
         len(shapes),
+        _unknown(rules, shapes),
     )
+
+
+def _unknown(rules: Rules, shapes: Shapes) -> list[Message]:
+    """A warning for names of attributes that shapes were given and the rules do not have."""
+    known = [attribute.name for attribute in rules.attributes]
+    names = sorted(shapes._named.difference(known, _OF_SHAPES))
+    names = [name for name in names if not name.startswith("/edgeattr/")]
+    if not names:
+        return []
+    near = {name: difflib.get_close_matches(name, known, 1) for name in names}
+    meant = [f"{name} may be meant as {others[0]}" for name, others in near.items() if others]
+    hint = "; ".join(meant) or f"the rules have {', '.join(known) or 'none'}"
+    text = f"the rules have no attribute {', '.join(names)}, which shapes were given"
+    return [Message("warning", "unknown-attribute", text, hint, f"warning[unknown-attribute]: {text}\n  hint: {hint}")]
+
+
+_OF_SHAPES = ("startRule", "name", "id", "streetWidth", "cityPart", "cityObject", "cityStorey")
+"""Names that mean something to every derivation."""

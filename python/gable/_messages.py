@@ -5,6 +5,9 @@
 from __future__ import annotations
 
 import os
+import sys
+import warnings
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -43,6 +46,40 @@ class Error(Exception):
         super().__init__("\n".join(str(m) for m in self.messages if m.severity == "error"))
 
 
+class Warning(UserWarning):
+    """What Gable tells besides errors, through Python's `warnings`: `message` has all of it.
+
+    Its place is that in the rules, where there is one, so that Python shows each once.
+    """
+
+    def __init__(self, message: Message):
+        self.message = message
+        within = f" (in {message.path})" if message.path else ""
+        hint = f"; {message.hint}" if message.hint else ""
+        super().__init__(f"{message.message}{within}{hint} [{message.code}]")
+
+
+_shown: dict[Any, Any] = {}
+"""What Python's filters have let through."""
+
+
+def _caller() -> tuple[str, int]:
+    """File and line of what called this package."""
+    frame = sys._getframe(1)
+    while frame.f_back and frame.f_globals.get("__name__", "").split(".")[0] == "gable":
+        frame = frame.f_back
+    return frame.f_code.co_filename, frame.f_lineno
+
+
+def warn_of(messages: Iterable[Message]) -> None:
+    """Hands the warnings among the messages to Python's `warnings`."""
+    for message in messages:
+        if message.severity != "warning":
+            continue
+        file, line = (message.file, message.line) if message.file and message.line else _caller()
+        warnings.warn_explicit(Warning(message), Warning, file, line, module="gable", registry=_shown)
+
+
 def messages_of(raw: list[dict[str, Any]]) -> list[Message]:
     return [Message(**m) for m in raw]
 
@@ -51,6 +88,12 @@ def checked(result: Any) -> Any:
     """The result, where it has no errors."""
     if not result.ok():
         raise Error(messages_of(result.messages()))
+    return result
+
+
+def told(result: Any) -> Any:
+    """The same of what has just been made: its warnings are told."""
+    warn_of(messages_of(checked(result).messages()))
     return result
 
 

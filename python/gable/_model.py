@@ -5,11 +5,17 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypedDict
 
 from gable import _gable
-from gable._messages import Error, Message, checked, messages_of, path_text
+from gable._messages import Error, Message, checked, messages_of, path_text, warn_of
+
+if TYPE_CHECKING:
+    import numpy as np
+    import pandas
+    from numpy.typing import NDArray
 
 _VIEWS = ("iso", "top", "front", "street")
 _MOST_LEAVES = 1 << 40
@@ -32,37 +38,51 @@ class Material:
 class Mesh:
     """The whole model as triangles in the world. All but `materials` are arrays of numpy."""
 
-    positions: Any
-    """(n, 3), float64."""
-    normals: Any
+    positions: NDArray[np.float64]
+    """(n, 3), float64: metres."""
+    normals: NDArray[np.float32]
     """(n, 3), float32."""
-    uvs: Any
+    uvs: NDArray[np.float32]
     """(n, 2), float32; zeros where a surface has none."""
-    triangles: Any
+    triangles: NDArray[np.uint32]
     """(m, 3), uint32: counter-clockwise from outside."""
-    material: Any
+    material: NDArray[np.uint32]
     """(m,), uint32: index into materials."""
-    leaf: Any
+    leaf: NDArray[np.uint32]
     """(m,), uint32: the number of the leaf that a triangle belongs to."""
     materials: list[Material]
+
+
+class PartMesh(TypedDict):
+    """A mesh of Parts, in its own frame."""
+
+    positions: NDArray[np.float64]
+    """(n, 3), float64."""
+    normals: NDArray[np.float32]
+    """(n, 3), float32."""
+    uvs: NDArray[np.float32]
+    """(n, 2), float32; (0, 2) where there are none."""
+    triangles: NDArray[np.uint32]
+    """(m, 3), uint32."""
+    slot: NDArray[np.uint32]
+    """(m,), uint32: which of the leaf's materials a triangle has."""
 
 
 @dataclass(frozen=True)
 class Parts:
     """The model with what it shares: meshes, and where each leaf puts one of them."""
 
-    meshes: list[dict[str, Any]]
-    """positions, normals, uvs (empty where there are none), triangles, and slot by triangle."""
+    meshes: list[PartMesh]
     materials: list[Material]
     names: list[str]
-    mesh: Any
-    """By leaf: index into meshes."""
-    name: Any
-    """By leaf: index into names."""
-    material: Any
-    """By leaf: index into materials, of its first surface."""
-    transform: Any
-    """By leaf, (n, 12): a point p of the mesh lies at origin + x p.x + y p.y + z p.z."""
+    mesh: NDArray[np.uint32]
+    """By leaf, (k,), uint32: index into meshes."""
+    name: NDArray[np.uint32]
+    """By leaf, (k,), uint32: index into names."""
+    material: NDArray[np.uint32]
+    """By leaf, (k,), uint32: index into materials, of its first surface."""
+    transform: NDArray[np.float64]
+    """By leaf, (k, 12), float64: a point p of the mesh lies at origin + x p.x + y p.y + z p.z."""
 
 
 @dataclass(frozen=True)
@@ -111,9 +131,11 @@ class ShapeReports:
 class Model:
     """A model: derived by rules, or read from a file."""
 
-    def __init__(self, raw: Any, shapes: int = 0):
+    def __init__(self, raw: Any, shapes: int = 0, told: Sequence[Message] = ()):
         self._raw = checked(raw)
         self._shapes = shapes
+        self._told = list(told)
+        warn_of(self.messages)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Model:
@@ -122,8 +144,8 @@ class Model:
 
     @property
     def messages(self) -> list[Message]:
-        """Warnings and notes."""
-        return messages_of(self._raw.messages())
+        """Warnings and notes. Python's `warnings` have shown the warnings."""
+        return messages_of(self._raw.messages()) + self._told
 
     @property
     def is_whole(self) -> bool:
@@ -185,7 +207,7 @@ class Model:
         """The number of leaves."""
         return self._raw.leaf_count()
 
-    def leaves(self, most: int = 1_000_000) -> Any:
+    def leaves(self, most: int = 1_000_000) -> pandas.DataFrame:
         """The first leaves as a table of pandas: name, rule, file, line, faces, vertices, color,
         material, width, height, depth, and a column for each attribute."""
         import pandas
@@ -250,4 +272,5 @@ def _written(result: tuple[bool, list[dict[str, Any]], Any]) -> Any:
     ok, messages, what = result
     if not ok:
         raise Error(messages_of(messages))
+    warn_of(messages_of(messages))
     return what

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from gable import _gable
-from gable._messages import Message, checked, messages_of, path_text
+from gable._messages import Message, messages_of, path_text, told
 
 Annotation = tuple[str, dict[str, Any]]
 
@@ -68,7 +68,7 @@ class Rules:
     """A rule file with all that it imports, compiled: CGA, or another notation that Gable reads."""
 
     def __init__(self, raw: Any):
-        self._raw = checked(raw)
+        self._raw = told(raw)
 
     @classmethod
     def load(
@@ -109,7 +109,7 @@ class Rules:
 
     @property
     def messages(self) -> list[Message]:
-        """Warnings and notes."""
+        """Warnings and notes. Python's `warnings` have shown the warnings."""
         return messages_of(self._raw.messages())
 
     @property

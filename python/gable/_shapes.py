@@ -6,17 +6,21 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gable import _gable
-from gable._messages import Message, above_zero, checked, messages_of, path_text
+from gable._messages import Message, above_zero, checked, messages_of, path_text, told
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 
 class Outline(NamedTuple):
     """A shape in plan."""
 
     name: str
-    ring: Any
+    ring: NDArray[np.float64]
     """Points of the largest face, (n, 2): x east, y north."""
     area: float
     """Of all its faces."""
@@ -25,8 +29,10 @@ class Outline(NamedTuple):
 class Shapes:
     """The initial shapes of a derivation, in order."""
 
-    def __init__(self, raw: Any):
+    def __init__(self, raw: Any, named: frozenset[str] = frozenset()):
         self._raw = checked(raw)
+        self._named = named
+        """Names that with_attributes was given."""
 
     @classmethod
     def lot(cls, width: float, depth: float) -> Shapes:
@@ -36,7 +42,7 @@ class Shapes:
     @classmethod
     def polygon(cls, ring: Iterable[Any], holes: Iterable[Iterable[Any]] = ()) -> Shapes:
         """A polygon in plan (x east, y north), from points or an array of shape (n, 2)."""
-        return cls(_gable.Shapes.polygon(_ring(ring), [_ring(h) for h in holes]))
+        return cls(told(_gable.Shapes.polygon(_ring(ring), [_ring(h) for h in holes])))
 
     @classmethod
     def mesh(
@@ -50,9 +56,8 @@ class Shapes:
         `holes` are lists of face numbers: the first is the face that has the others as holes.
         """
         points = [tuple(float(c) for c in v) for v in vertices]
-        return cls(
-            _gable.Shapes.mesh(points, [list(map(int, f)) for f in faces], [list(map(int, h)) for h in holes])
-        )
+        lists = [list(map(int, f)) for f in faces], [list(map(int, h)) for h in holes]
+        return cls(told(_gable.Shapes.mesh(points, *lists)))
 
     @classmethod
     def load(
@@ -62,7 +67,7 @@ class Shapes:
 
         Of a map, features with the property `key` become shapes, with `value` those that have it.
         """
-        return cls(_gable.Shapes.load(path_text(path), layer, key, value))
+        return cls(told(_gable.Shapes.load(path_text(path), layer, key, value)))
 
     @classmethod
     def of_geometries(cls, geometries: Iterable[Any], attributes: Iterable[Mapping[str, Any]] | None = None) -> Shapes:
@@ -80,7 +85,7 @@ class Shapes:
                 shapes.append(cls.polygon(ring, holes))
                 values.append(own)
         joined = cls.joined(shapes)
-        return joined.with_attributes(values) if given is not None else joined
+        return joined._with(values) if given is not None else joined
 
     @classmethod
     def of_frame(cls, frame: Any) -> Shapes:
@@ -104,24 +109,36 @@ class Shapes:
     @classmethod
     def joined(cls, all: Iterable[Shapes]) -> Shapes:
         """The shapes of all, one after the other."""
-        return cls(_gable.Shapes.joined([s._raw for s in all]))
+        shapes = list(all)
+        named = frozenset().union(*(s._named for s in shapes))
+        return cls(_gable.Shapes.joined([s._raw for s in shapes]), named)
 
     def with_attributes(self, by_shape: Iterable[Mapping[str, Any]]) -> Shapes:
-        """The same with attributes of rules, a mapping for each shape in order."""
-        return Shapes(self._raw.with_attributes([dict(values) for values in by_shape]))
+        """The same with attributes of rules, a mapping for each shape in order.
+
+        `derive` warns of names that its rules do not have. Raises ValueError where there are more
+        mappings than shapes.
+        """
+        values = [dict(own) for own in by_shape]
+        if len(values) > len(self):
+            raise ValueError(f"there are {len(self)} shapes, and attributes for {len(values)}")
+        return self._with(values, self._named.union(*values))
+
+    def _with(self, values: Iterable[Mapping[str, Any]], named: frozenset[str] = frozenset()) -> Shapes:
+        return Shapes(self._raw.with_attributes([dict(own) for own in values]), named)
 
     def with_nested_cut(self) -> Shapes:
         """The same with footprints cut out of larger ones that they lie in or overlap."""
-        return Shapes(self._raw.with_nested_cut())
+        return Shapes(self._raw.with_nested_cut(), self._named)
 
     def __getitem__(self, which: int | slice) -> Shapes:
         """Some of the shapes; what is random about them stays as it is among all."""
         if isinstance(which, slice):
-            return Shapes(self._raw.only(list(range(*which.indices(len(self))))))
+            return Shapes(self._raw.only(list(range(*which.indices(len(self))))), self._named)
         index = which + len(self) if which < 0 else which
         if not 0 <= index < len(self):
             raise IndexError(f"there are {len(self)} shapes, none of number {which}")
-        return Shapes(self._raw.only([index]))
+        return Shapes(self._raw.only([index]), self._named)
 
     def __len__(self) -> int:
         return self._raw.size()

@@ -21,6 +21,7 @@
 
 #include "base/result.h"
 #include "engine/impl.h"
+#include "engine/leaf_labels.h"
 #include "gable/dataset.h"
 
 namespace gable {
@@ -46,13 +47,11 @@ class Labeller {
  private:
   /// By node of the trace its own category, 0 for none.
   std::vector<uint32_t> labelled(const Rules& rules, const DerivationTrace& trace) const;
-  void mark(const DerivationTrace& trace, const std::vector<uint32_t>& categoryOfNode,
-            uint64_t leaves);
 
   DatasetLabels labels_;
   std::map<std::string, uint32_t> ids_;
-  /// By leaf in path order: of Label and Tag.
-  std::vector<uint32_t> instanceOf_, categoryOf_;
+  /// Of Label and Tag.
+  LeafMarks leaves_;
 };
 
 /// What the camera of an item sees, and by which light.

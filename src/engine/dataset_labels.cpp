@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// What pixels are. By rule it is in the layers of the picture. By @Label and by tag it comes from
-// the derivation tree: the leaves of a shape lie together in path order, and without sharing the
-// renderer numbers leaves in that order.
+// What pixels are. By rule it is in the layers of the picture. By @Label and by tag it is what
+// leaves are (leaf_labels.h): without sharing the renderer numbers them in path order.
 
 #include <algorithm>
 #include <set>
@@ -15,40 +14,6 @@
 namespace gable {
 
 namespace {
-
-// By rule, as Rules::rules() has them: its label, or nothing.
-std::vector<std::string> labelsOf(const Rules& rules) {
-  std::vector<std::string> out;
-  for (const RuleInfo& rule : rules.rules()) {
-    std::string& label = out.emplace_back();
-    for (const AttributeInfo::Annotation& note : rule.annotations) {
-      if (note.name == "Label" && !note.arguments.empty()) label = note.arguments[0].second;
-    }
-  }
-  return out;
-}
-
-// What the rules name where they give tags: texts that stand in the call itself.
-std::set<std::string> tagsNamedBy(const Program& program) {
-  std::set<std::string> names;
-  for (size_t at = 0; at + 1 < program.code.size(); ++at) {
-    const Instruction& i = program.code[at];
-    if (i.code != Code::OperationConstant || i.x == 0) continue;
-    if (std::string_view(program.operations[i.a]->name) != "tag") continue;
-    std::string name(program.pool->text(program.constants[program.code[at + 1].a].id));
-    // As the operation takes it.
-    std::erase_if(name, [](char c) { return c == '?' || c == '*'; });
-    if (!name.empty()) names.insert(std::move(name));
-  }
-  return names;
-}
-
-// Rules may give tags that they compute.
-bool computesTags(const Program& program) {
-  return std::any_of(program.code.begin(), program.code.end(), [&](const Instruction& i) {
-    return i.code == Code::Operation && std::string_view(program.operations[i.a]->name) == "tag";
-  });
-}
 
 // A tag that no rule gives. Operations give those with a dot, such as extrude.top.
 std::optional<Error> missingTag(const Program& program, const std::vector<std::string>& tags) {
@@ -106,68 +71,6 @@ Result<Categories> categoriesOf(const Rules& rules, const DatasetSettings& setti
   return Categories(names.begin(), names.end());
 }
 
-namespace {
-
-// Which categories shapes have from their tags and from those above them. What is above a shape has
-// been found before it, so each of its sets is one of few.
-class TagCategories {
- public:
-  TagCategories(const Categories& queries, const std::vector<std::vector<std::string>>& tagSets) {
-    for (const std::vector<std::string>& set : tagSets) {
-      std::vector<uint32_t>& ids = ofTags_.emplace_back();
-      for (uint32_t q = 0; q < queries.size(); ++q) {
-        const auto matches = [&](const std::string& tag) { return tagMatches(queries[q], tag); };
-        if (std::any_of(set.begin(), set.end(), matches)) ids.push_back(q + 1);
-      }
-    }
-  }
-
-  struct Step {
-    /// The set of the shape with those above it, by number; 0 for the empty one.
-    uint32_t set = 0;
-    /// The first that is not above it, or 0.
-    uint32_t fresh = 0;
-  };
-  Step below(uint32_t above, uint32_t tags) {
-    const auto [at, isNew] = steps_.try_emplace({above, tags});
-    if (isNew) at->second = found(above, ofTags_[tags]);
-    return at->second;
-  }
-
- private:
-  Step found(uint32_t above, const std::vector<uint32_t>& own) {
-    std::set<uint32_t> all = sets_[above];
-    Step step;
-    for (const uint32_t id : own) {
-      if (all.insert(id).second && step.fresh == 0) step.fresh = id;
-    }
-    const auto [at, isNew] = numbers_.try_emplace(all, static_cast<uint32_t>(sets_.size()));
-    if (isNew) sets_.push_back(std::move(all));
-    step.set = at->second;
-    return step;
-  }
-
-  std::vector<std::vector<uint32_t>> ofTags_;
-  std::vector<std::set<uint32_t>> sets_{{}};
-  std::map<std::set<uint32_t>, uint32_t> numbers_{{{}, 0}};
-  std::map<std::pair<uint32_t, uint32_t>, Step> steps_;
-};
-
-// By node of the trace its own category, 0 for none: a part of what has the same tag is no instance
-// of its own.
-std::vector<uint32_t> taggedNodes(const Categories& categories, const DerivationTrace& trace) {
-  TagCategories sets(categories, trace.tagSets);
-  std::vector<uint32_t> out, setOf;
-  for (const DerivationTrace::Node& node : trace.nodes) {
-    const auto step = sets.below(node.parent ? setOf[*node.parent] : 0, node.tags);
-    setOf.push_back(step.set);
-    out.push_back(step.fresh);
-  }
-  return out;
-}
-
-}  // namespace
-
 Labeller::Labeller(const Rules& rules, const Categories& categories, DatasetLabels labels,
                    const Model& model)
     : labels_(labels) {
@@ -176,9 +79,9 @@ Labeller::Labeller(const Rules& rules, const Categories& categories, DatasetLabe
   }
   if (labels == DatasetLabels::Rule) return;
   const DerivationTrace trace = model.trace();
-  mark(trace,
-       labels == DatasetLabels::Tag ? taggedNodes(categories, trace) : labelled(rules, trace),
-       model.leafCount());
+  const bool byTag = labels == DatasetLabels::Tag;
+  leaves_ = marksOf(trace, byTag ? taggedNodes(categories, trace) : labelled(rules, trace),
+                    model.leafCount());
 }
 
 std::vector<uint32_t> Labeller::labelled(const Rules& rules, const DerivationTrace& trace) const {
@@ -191,23 +94,6 @@ std::vector<uint32_t> Labeller::labelled(const Rules& rules, const DerivationTra
     out.push_back(node.rule ? idOfRule[*node.rule] : 0);
   }
   return out;
-}
-
-void Labeller::mark(const DerivationTrace& trace, const std::vector<uint32_t>& categoryOfNode,
-                    uint64_t leaves) {
-  instanceOf_.assign(leaves, 0);
-  categoryOf_.assign(leaves, 0);
-  // Parents come before their children, so the nearest category is the last one to be written.
-  uint32_t instance = 0;
-  for (size_t n = 0; n < trace.nodes.size(); ++n) {
-    const std::optional<DerivationTrace::Leaves>& below = trace.nodes[n].leaves;
-    if (categoryOfNode[n] == 0 || !below) continue;
-    ++instance;
-    for (uint64_t i = below->first; i < std::min<uint64_t>(below->end, leaves); ++i) {
-      instanceOf_[i] = instance;
-      categoryOf_[i] = categoryOfNode[n];
-    }
-  }
 }
 
 Marks Labeller::marks(const PictureLayers& layers) const {
@@ -227,9 +113,9 @@ Marks Labeller::marks(const PictureLayers& layers) const {
   out.instances.resize(pixels);
   for (size_t i = 0; i < pixels; ++i) {
     const uint32_t leaf = layers.instances[i];
-    if (leaf == 0 || leaf > instanceOf_.size()) continue;
-    out.instances[i] = instanceOf_[leaf - 1];
-    out.categories[i] = categoryOf_[leaf - 1];
+    if (leaf == 0 || leaf > leaves_.shapes.size()) continue;
+    out.instances[i] = leaves_.shapes[leaf - 1];
+    out.categories[i] = leaves_.marks[leaf - 1];
   }
   return out;
 }

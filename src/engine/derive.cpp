@@ -289,6 +289,14 @@ void layOnTerrain(Model::Impl& model, const TerrainSurface& terrain, const Deriv
                           : diagnosticOf(Error{status.code(), status.message(), status.hint()}));
 }
 
+std::shared_ptr<const DerivedFrom> fromOf(const Shapes& shapes, DeriveSettings settings) {
+  settings.remember = false;
+  settings.before = nullptr;
+  settings.progress = {};
+  settings.cancel = nullptr;
+  return std::make_shared<DerivedFrom>(DerivedFrom{shapes, std::move(settings)});
+}
+
 }  // namespace
 
 std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
@@ -299,6 +307,7 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
   if (!r.ok) return impl;
   impl->project = r.project;
   impl->rules = rules.shared();
+  impl->from = fromOf(shapes, settings);
   DeriveOptions options = optionsOf(settings, r, impl->diagnostics);
   if (hasErrors(impl->diagnostics)) return impl;
   options.geo = shapes.impl().geo.get();

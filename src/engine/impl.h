@@ -85,6 +85,13 @@ struct Shapes::Impl {
   bool isWhole = true;
 };
 
+/// What a model was derived from besides its rules, for what is found out later by deriving again.
+struct DerivedFrom {
+  Shapes shapes;
+  /// Without what belongs to the one derivation: progress, cancelling, what came before.
+  DeriveSettings settings;
+};
+
 struct Model::Impl {
   bool found = true;
   DiagnosticList diagnostics;
@@ -92,6 +99,8 @@ struct Model::Impl {
   /// Holds the tables that trace names point into.
   std::shared_ptr<const Rules::Impl> rules;
   DeriveResult result;
+  /// Null where it was not derived.
+  std::shared_ptr<const DerivedFrom> from;
   /// What initial shapes came with, and where their world lies on the Earth, for city models.
   std::vector<std::vector<AttributeValue>> shapeAttributes;
   std::shared_ptr<const GeoFrame> geo;

@@ -9,6 +9,7 @@
 #include "base/files.h"
 #include "base/temporary_folder.h"
 #include "base/work.h"
+#include "engine/city_labels.h"
 #include "engine/game_scene.h"
 #include "engine/guard.h"
 #include "engine/impl.h"
@@ -151,6 +152,11 @@ WriteResult written(const Model::Impl& impl, const std::string& path,
   options.textureSize = settings.textureSize;
   options.geo = impl.geo.get();
   options.attributesOf = [&impl](size_t root) { return knownOfRoot(impl, root); };
+  std::optional<CityLabels> labels;
+  options.labelsOf = [&impl, &labels](size_t root) {
+    if (!labels) labels.emplace(impl);
+    return labels->of(root);
+  };
   options.readTexture = [&impl](const std::string& texture) -> Result<std::string> {
     if (impl.project) return impl.project->texture(texture);
     return Error{"texture-not-found", "there is no picture '" + texture + "'", ""};
@@ -173,6 +179,11 @@ WriteResult written(const Model::Impl& impl, const std::string& path,
   out.bytes = report->bytes;
   out.savedBytes = report->savedBytes;
   out.atlas = atlas.counts;
+  if (labels && labels->unread() > 0) {
+    report->warnings.push_back(
+        "parts go by their names and not by @Label and tags: the derivation that finds those came "
+        "to another end; set cityPart instead");
+  }
   MissingFiles told;
   if (impl.rules) told.add(impl.rules->diagnostics);
   told.add(impl.diagnostics);

@@ -74,6 +74,10 @@ Error tooFar() {
           "coordinates are metres, at most 1e9 from the origin"};
 }
 
+Diagnostic warning(const char* code, const std::string& message, const std::string& hint) {
+  return diagnosticOf({Severity::Warning, code, Span{}, message, hint, {}, {}}, Sources{});
+}
+
 // What an outline has that rules may make nothing of; empty where it is sound.
 std::string mistakeOf(const Ring& ring) {
   const bool isOnALine = std::all_of(ring.begin(), ring.end(), [&](const Vec2& v) {
@@ -81,6 +85,18 @@ std::string mistakeOf(const Ring& ring) {
   });
   if (isOnALine && signedArea(ring) == 0) return "the polygon has no area";
   return isSimple(ring) ? "" : "the outline of the polygon touches or crosses itself";
+}
+
+// Whether corners that are meant to be metres lie as those of a lot in degrees do.
+bool mayBeDegrees(const Ring& ring) {
+  constexpr double kLargestLot = 0.1, kMostLongitude = 180, kMostLatitude = 90;
+  Vec2 low = ring.empty() ? Vec2{} : ring[0], high = low;
+  for (const Vec2& v : ring) {
+    if (!(std::fabs(v.x) <= kMostLongitude && std::fabs(v.y) <= kMostLatitude)) return false;
+    low = {std::min(low.x, v.x), std::min(low.y, v.y)};
+    high = {std::max(high.x, v.x), std::max(high.y, v.y)};
+  }
+  return high.x - low.x < kLargestLot && high.y - low.y < kLargestLot;
 }
 
 std::shared_ptr<Shapes::Impl> ofPolygon(const Polygon& p, const std::string& name) {
@@ -99,14 +115,8 @@ std::shared_ptr<Shapes::Impl> ofPolygon(const Polygon& p, const std::string& nam
   impl->footprints.push_back(footprint(std::move(input)));
   const std::string mistake = p.outer.size() < 3 ? std::string() : mistakeOf(p.outer);
   if (!mistake.empty()) {
-    impl->diagnostics.push_back(diagnosticOf({Severity::Warning,
-                                              "shape-mesh",
-                                              Span{},
-                                              mistake,
-                                              "give the corners in order around the polygon",
-                                              {},
-                                              {}},
-                                             Sources{}));
+    impl->diagnostics.push_back(
+        warning("shape-mesh", mistake, "give the corners in order around the polygon"));
   }
   return impl;
 }
@@ -314,7 +324,16 @@ Shapes Shapes::polygon(const Ring& outer, const std::vector<Ring>& holes) {
     Polygon p{ring(outer), {}};
     for (const Ring& h : holes) p.holes.push_back(ring(h));
     orient(p);
-    return ofPolygon(p, "polygon");
+    std::shared_ptr<Impl> impl = ofPolygon(p, "polygon");
+    if (mayBeDegrees(p.outer)) {
+      impl->diagnostics.push_back(warning(
+          "shape-degrees",
+          "the polygon is smaller than ten centimetres: its corners may be longitudes and "
+          "latitudes",
+          "give metres: project the corners first, as Shapes.of_frame does in Python, or load them "
+          "from a GeoJSON file, which is in degrees"));
+    }
+    return impl;
   }));
 }
 

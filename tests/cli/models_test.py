@@ -184,6 +184,53 @@ class Models(Case):
         objects = json.loads((self.folder / "lot.city.json").read_text(encoding="utf-8"))["CityObjects"]
         self.assertEqual([o["type"] for o in objects.values()], ["Building"])
 
+    LABELLED = """attr cityPart = ""
+Lot --> extrude(6) comp(f) { top : A | side : B }
+@Label("roof")
+A --> roofHip(30) X.
+B --> split(x) { ~1 : tag("wall") C | 1 : D | ~1 : tag("wall") C }
+C --> split(x) { ~1 : Y. | ~1 : [ Y. ] [ s('1, 0.2, 0.1) set(cityPart, "Railing") Y. ] }
+@Label("front door")
+D --> split(y) { 2.1 : split(x) { 0.1 : Y. | ~1 : Z. | 0.1 : Y. } | ~1 : tag("Opening.window") E }
+E --> split(x) { ~1 : Z. | 0.1 : Y. | ~1 : Z. }
+"""
+
+    def testLabelsAndTagsSayWhatPartsAre(self):
+        """Names say nothing here; attributes go before labels, and the nearest label counts."""
+        self.put("l.cga", self.LABELLED)
+        for options in ([], ["--jobs", "1"], ["--no-sharing"]):
+            self.run_gable("generate", "l.cga", "--lot", "12x12", "-o", "l.city.json", *options)
+            self.sound("l.city.json")
+            objects = json.loads((self.folder / "l.city.json").read_text(encoding="utf-8"))["CityObjects"]
+            self.assertEqual(Counter(o["type"] for o in objects.values()), {"Building": 1, "BuildingInstallation": 1})
+            full = [g for o in objects.values() if o["type"] == "Building" for g in o["geometry"] if g["lod"] == "3"]
+            types = Counter(s["type"] for g in full for s in g["semantics"]["surfaces"])
+            self.assertEqual((types["Window"], types["Door"]), (4, 4))
+            self.assertEqual(set(types), {"Window", "Door", "RoofSurface", "WallSurface"})
+            self.run_gable("generate", "l.cga", "--lot", "12x12", "-o", "l.ifc", *options)
+            found = self.read_by_others("l.ifc")["elements"]
+            self.assertEqual({k: found.get(k, 0) for k in ("IFCWINDOW", "IFCDOOR", "IFCROOF", "IFCWALL", "IFCRAILING")},
+                             {"IFCWINDOW": 4, "IFCDOOR": 4, "IFCROOF": 1, "IFCWALL": 8, "IFCRAILING": 8})
+            self.assertNotIn("IFCBUILDINGELEMENTPROXY", found)
+
+    def testLabelsOfShapesThatAskForOthers(self):
+        rules = self.LABELLED.replace("Lot --> extrude(6)", "Lot --> case overlaps() : Free. else : Mass\nMass --> extrude(6)")
+        self.put("o.cga", rules)
+        self.put("lots.geojson", json.dumps(LOTS))
+        self.run_gable("generate", "o.cga", "--shapes", "lots.geojson", "--start", "Lot", "-o", "o.ifc")
+        found = self.read_by_others("o.ifc")["elements"]
+        self.assertEqual((found["IFCBUILDING"], found["IFCWINDOW"], found["IFCDOOR"], found["IFCROOF"]), (2, 8, 8, 2))
+
+    def testSurfacesOfACityModelStayWhatTheyAre(self):
+        self.written("c.city.json", "--lod", "2")
+        self.put("as.cga", "Lot --> comp(f) { all : X. }\n")
+        self.run_gable("generate", "as.cga", "--shapes", "c.city.json", "--only", "type=Building", "--start", "Lot",
+                       "-o", "d.ifc")
+        found = self.read_by_others("d.ifc")["elements"]
+        self.assertGreaterEqual(found["IFCROOF"], 2)
+        self.assertGreaterEqual(found["IFCWALL"], 2)
+        self.assertNotIn("IFCBUILDINGELEMENTPROXY", found)
+
     def testWordsThatNameNothingAreTold(self):
         self.put("w.cga", 'attr cityPart = ""\nLot --> extrude(3) set(cityPart, "Widget") Body.\n')
         for name in ("w.city.json", "w.ifc"):

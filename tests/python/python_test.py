@@ -15,7 +15,9 @@ import sys
 import tempfile
 import threading
 import time
+import typing
 import unittest
+import warnings
 import zipfile
 from pathlib import Path
 
@@ -30,6 +32,7 @@ if __name__ == "__main__":
     sys.path.insert(0, str(BUILD / "python"))
 
 import numpy as np  # noqa: E402
+import numpy.typing  # noqa: E402
 
 import gable  # noqa: E402
 import gable.prt as pyprt  # noqa: E402
@@ -106,6 +109,100 @@ class BadInput(unittest.TestCase):
         for words, ring in (("crosses itself", [(0, 0), (9, 9), (9, 0), (0, 9)]), ("has no area", [(0, 0), (5, 0), (9, 0)])):
             self.assertIn(words, gable.Shapes.polygon(ring).messages[0].message)
         self.assertEqual(lot.messages, [])
+
+
+class Warned(unittest.TestCase):
+    """Warnings reach Python's `warnings`, each once, and `messages`."""
+
+    def told(self, call, times=1):
+        """What is told of by default, as text, with its places."""
+        gable._messages._shown.clear()
+        with warnings.catch_warnings(record=True) as all:
+            warnings.simplefilter("default")
+            for _ in range(times):
+                result = call()
+        self.assertTrue(all and {w.category for w in all} == {gable.Warning}, all)
+        return result, all
+
+    def test_a_derivation_tells_place_and_hint_once(self):
+        rules = gable.Rules.parse('attr picture = "nowhere.png"\n@StartRule\nLot --> extrude(4) texture(picture) X.\n', "house.cga")
+        model, all = self.told(lambda: gable.derive(rules, gable.Shapes.lot(9, 9)), times=3)
+        self.assertEqual(len(all), 1, [str(w.message) for w in all])
+        told = all[0].message.message
+        self.assertIn(told, model.messages)
+        self.assertIn("nowhere.png", told.message)
+        self.assertTrue(told.hint and told.hint in str(all[0].message))
+        self.assertEqual((all[0].filename, all[0].lineno), (told.file, told.line))
+        self.assertEqual((told.file, told.line), ("house.cga", 3))
+
+    def test_an_operation_without_a_meaning_for_its_shape(self):
+        rules = gable.Rules.parse("@StartRule\nLot --> extrude(4) comp(e) { all : roofHip(30) X. }\n", "edges.cga")
+        model, all = self.told(lambda: gable.derive(rules, gable.Shapes.lot(9, 9)), times=2)
+        self.assertEqual([w.message.message for w in all], [m for m in model.messages if m.severity == "warning"])
+        self.assertEqual(len({str(w.message) for w in all}), len(all))
+
+    def test_rules_shapes_and_files(self):
+        _, all = self.told(lambda: gable.Rules.parse("@StartRule\nLot --> Facade\n", "leaf.cga"))
+        self.assertEqual((all[0].filename, all[0].lineno), ("leaf.cga", 2))
+        # Where no rule is to blame the place is that of the caller.
+        _, all = self.told(lambda: gable.Shapes.polygon([(0, 0), (9, 9), (9, 0), (0, 9)]), times=2)
+        self.assertEqual((len(all), all[0].filename), (1, __file__))
+
+    def test_they_can_be_errors_and_silent(self):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", gable.Warning)
+            with self.assertRaisesRegex(gable.Warning, "crosses itself"):
+                gable.Shapes.polygon([(0, 0), (9, 9), (9, 0), (0, 9)])
+            warnings.simplefilter("ignore", gable.Warning)
+            gable.Shapes.polygon([(0, 0), (9, 9), (9, 0), (0, 9)])
+
+    def test_degrees_in_the_place_of_metres(self):
+        paris = [(2.3501, 48.8501), (2.3503, 48.8501), (2.3503, 48.8503), (2.3501, 48.8503)]
+        shapes, all = self.told(lambda: gable.Shapes.polygon(paris))
+        self.assertEqual([m.code for m in shapes.messages], ["shape-degrees"])
+        self.assertIn("Shapes.of_frame", str(all[0].message))
+        square = {"type": "Polygon", "coordinates": [paris]}
+        _, all = self.told(lambda: gable.Shapes.of_geometries([square, square]))
+        self.assertEqual(len(all), 1)
+        for metres in ([(0, 0), (0.2, 0), (0.2, 0.2)], [(500, 100), (500.01, 100), (500, 100.01)]):
+            self.assertEqual(gable.Shapes.polygon(metres).messages, [])
+        self.assertEqual(gable.Shapes.lot(0.05, 0.05).messages, [])
+
+    def test_names_that_the_rules_do_not_have(self):
+        rules = gable.Rules.parse(BOX)
+        lots = gable.Shapes.joined([gable.Shapes.lot(9, 9)] * 2)
+        named = lots.with_attributes([{"heigth": 3, "height": 4, "cityPart": "Building"}, {"colour": "red"}])
+        model, all = self.told(lambda: gable.derive(rules, named[1:]))
+        self.assertEqual([m.code for m in model.messages if m.severity == "warning"], ["unknown-attribute"])
+        self.assertIn("colour, heigth", str(all[0].message))
+        self.assertIn("heigth may be meant as height", str(all[0].message))
+        self.assertEqual([m for m in gable.derive(rules, lots.with_attributes([{"height": 4}])).messages
+                          if m.severity == "warning"], [])
+        # The columns of a table are not all for the rules.
+        table = gable.Shapes.of_geometries([Square()], [{"height": 7, "owner": "x"}])
+        self.assertNotIn("unknown-attribute", [m.code for m in gable.derive(rules, table).messages])
+        with self.assertRaisesRegex(ValueError, "2 shapes, and attributes for 3"):
+            lots.with_attributes([{}] * 3)
+
+
+class Typed(unittest.TestCase):
+    def test_arrays_are_what_their_types_say(self):
+        names = {"np": np, "NDArray": np.typing.NDArray}
+        model = gable.derive(gable.Rules.parse(BOX.replace("Face }", "Face. }")), gable.Shapes.lot(2, 3))
+        mesh, parts = model.mesh(), model.parts()
+        found = [(gable.Mesh, vars(mesh)), (gable.Parts, vars(parts)), (gable.PartMesh, parts.meshes[0]),
+                 (gable.Outline, gable.Shapes.lot(2, 3).outline(0)._asdict())]
+        seen = 0
+        for kind, values in found:
+            hints = typing.get_type_hints(kind, localns={**names, **vars(gable)})
+            self.assertEqual(set(hints), set(values))
+            for name, hint in hints.items():
+                if typing.get_origin(hint) is np.ndarray:
+                    wanted = typing.get_args(typing.get_args(hint)[1])[0]
+                    self.assertEqual(values[name].dtype, wanted, f"{kind.__name__}.{name}")
+                    seen += 1
+        self.assertEqual(seen, 6 + 4 + 5 + 1)
+        self.assertTrue((BUILD / "python/gable/py.typed").exists())
 
 
 class Numbers(unittest.TestCase):

@@ -22,10 +22,11 @@ bool isNear(const Box3& a, const Box3& b) {
 
 class Collector {
  public:
-  Collector(const Scene& scene, const CityParts& kinds, CityFaces& faces, CityKind kindOfShape)
-      : scene_(scene), kinds_(kinds), faces_(faces), kindOfShape_(kindOfShape) {}
+  Collector(const Scene& scene, RootParts& parts, CityFaces& faces, CityKind kindOfShape)
+      : scene_(scene), parts_(parts), faces_(faces), kindOfShape_(kindOfShape) {}
 
   CityContent collect(const Root& root) {
+    parts_.begin();
     if (!enters(root.instance, root.instance.frame)) return std::move(out_);
     std::vector<uint32_t> placements;
     const auto open = [&](const Frame& at, size_t level) {
@@ -49,17 +50,17 @@ class Collector {
  private:
   // False for what is an object as a whole.
   bool enters(const Instance& in, const Frame& at) {
-    if (!kinds_.isWhole(in.prototype)) return true;
-    const CityPart& part = kinds_.wholePart(in.prototype);
-    if (!isSolitary(part.kind)) return true;
+    const std::optional<CityPart> part = parts_.whole(in.prototype);
+    if (!part || !isSolitary(part->kind)) return true;
     run_.end();
-    out_.instances.push_back({part, in.prototype, at});
+    out_.instances.push_back({*part, in.prototype, at});
+    parts_.skip(in.prototype);
     return false;
   }
 
   void add(const PlannedLeaf& planned) {
     const Leaf& leaf = scene_.leaves[planned.leaf];
-    CityPart part = partWithin(kinds_.of(leaf), kindOfShape_);
+    CityPart part = partWithin(parts_.next(leaf), kindOfShape_);
     part.storey = 0;
     PlacedPart placed{planned, part.kind, 0};
     CityObjectKey key;
@@ -81,7 +82,7 @@ class Collector {
   }
 
   const Scene& scene_;
-  const CityParts& kinds_;
+  RootParts& parts_;
   CityFaces& faces_;
   CityKind kindOfShape_;
   CityContent out_;
@@ -95,12 +96,14 @@ class Collector {
 CityPart partWithin(CityPart part, CityKind kindOfShape) {
   const bool says = part.kind != CityKind::Unknown;
   const bool takesShape = !says || (!isOfBuilding(kindOfShape) && isOfBuilding(part.kind));
-  if (kindOfShape != CityKind::Unknown && takesShape) part.kind = kindOfShape;
+  if (kindOfShape == CityKind::Unknown || !takesShape) return part;
+  part.kind = kindOfShape;
+  part.shape = 0;
   return part;
 }
 
 bool CityRun::begins(const CityPart& part, const Box3& box) {
-  const bool follows = open_ && part == part_ && isNear(box_, box);
+  const bool follows = open_ && part == part_ && (part.shape != 0 || isNear(box_, box));
   if (!follows) box_ = Box3{};
   open_ = true;
   part_ = part;
@@ -120,12 +123,13 @@ CityKind kindOfShape(const std::string& name, const std::vector<AttributeValue>&
   return isOfBuilding(kind) || kind == CityKind::Land ? CityKind::Unknown : kind;
 }
 
-CityKind kindOrLand(const Scene& scene, const CityParts& kinds, const Root& root, CityKind kind) {
+CityKind kindOrLand(const Scene& scene, RootParts& parts, const Root& root, CityKind kind) {
   if (kind != CityKind::Unknown) return kind;
+  parts.begin();
   bool lies = false, stands = false;
   forEachLeaf(scene, scene.prototypes[root.instance.prototype], root.instance.frame,
               [&](const Leaf& leaf, const Frame&) {
-                const CityKind of = kinds.of(leaf).kind;
+                const CityKind of = parts.next(leaf).kind;
                 lies = lies || of == CityKind::Ground;
                 stands = stands || (of != CityKind::Ground && isOfBuilding(of));
               });
@@ -143,10 +147,10 @@ std::string titleOfShape(const std::string& name, const std::vector<AttributeVal
   return name;
 }
 
-CityContent cityContentOf(const Scene& scene, const CityParts& kinds, CityFaces& faces,
-                          const Root& root, CityKind kindOfShape) {
-  const CityKind kind = kindOrLand(scene, kinds, root, kindOfShape);
-  return Collector(scene, kinds, faces, kind).collect(root);
+CityContent cityContentOf(const Scene& scene, RootParts& parts, CityFaces& faces, const Root& root,
+                          CityKind kindOfShape) {
+  const CityKind kind = kindOrLand(scene, parts, root, kindOfShape);
+  return Collector(scene, parts, faces, kind).collect(root);
 }
 
 }  // namespace gable

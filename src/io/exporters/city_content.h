@@ -11,6 +11,7 @@
 #include "io/exporters/city_faces.h"
 #include "io/exporters/city_kinds.h"
 #include "io/exporters/plan.h"
+#include "io/exporters/root_parts.h"
 
 namespace gable {
 
@@ -28,7 +29,7 @@ std::string titleOfShape(const std::string& name, const std::vector<AttributeVal
 CityPart partWithin(CityPart part, CityKind kindOfShape);
 
 /// The kind of a shape, or Land where nothing of a building stands on its ground.
-CityKind kindOrLand(const Scene& scene, const CityParts& kinds, const Root& root, CityKind kind);
+CityKind kindOrLand(const Scene& scene, RootParts& parts, const Root& root, CityKind kind);
 
 struct PlacedPart {
   PlannedLeaf planned;
@@ -68,7 +69,8 @@ struct CityContent {
   std::vector<CityInstance> instances;
 };
 
-/// Leaves that follow each other in path order, are of one part and touch: one window, one tree.
+/// Leaves that follow each other in path order, are of one part and touch, or are of one labelled
+/// shape: one window, one tree.
 class CityRun {
  public:
   /// True where the next leaf begins a new one.
@@ -84,7 +86,7 @@ class CityRun {
 };
 
 /// O(n log n) in the leaves of the shape, instances expanded.
-CityContent cityContentOf(const Scene& scene, const CityParts& kinds, CityFaces& faces,
-                          const Root& root, CityKind kindOfShape);
+CityContent cityContentOf(const Scene& scene, RootParts& parts, CityFaces& faces, const Root& root,
+                          CityKind kindOfShape);
 
 }  // namespace gable

@@ -26,6 +26,7 @@
 #include "io/exporters/city_kinds.h"
 #include "io/exporters/city_place.h"
 #include "io/exporters/city_text.h"
+#include "io/exporters/root_parts.h"
 #include "io/exporters/write_model.h"
 #include "scene/flatten.h"
 
@@ -58,6 +59,7 @@ class CityJsonWriter {
         lines_(modelFormatOf(path) == "city.jsonl"),
         out_(path),
         kinds_(scene),
+        parts_(kinds_),
         faces_(scene),
         place_(options.geo, scene.geoOrigin),
         materials_(scene.materials) {
@@ -127,6 +129,7 @@ class CityJsonWriter {
   bool lines_;
   FileWriter out_;
   CityParts kinds_;
+  RootParts parts_;
   CityFaces faces_;
   CityPlace place_;
   CityMaterials materials_;
@@ -665,7 +668,8 @@ void CityJsonWriter::writeRoot(uint32_t number) {
   const Root& root = scene_.roots[number];
   const std::string& name = root.name < scene_.names.size() ? scene_.names[root.name] : path_;
   const Attributes known = options_.attributesOf ? options_.attributesOf(number) : Attributes{};
-  const CityContent content = cityContentOf(scene_, kinds_, faces_, root, kindOfShape(name, known));
+  parts_.open(options_.labelsOf ? options_.labelsOf(number) : std::vector<LabelledLeaves>{});
+  const CityContent content = cityContentOf(scene_, parts_, faces_, root, kindOfShape(name, known));
   // What has no roof, such as a street with its cars, and railings without a building are
   // constructions of their own.
   const Bodies bodies = bodiesOf(content);

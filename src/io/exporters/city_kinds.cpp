@@ -8,6 +8,7 @@
 #include "base/number.h"
 #include "base/text.h"
 #include "base/work.h"
+#include "scene/flatten.h"
 
 namespace gable {
 namespace {
@@ -104,6 +105,8 @@ bool isSolitary(CityKind kind) {
 
 bool isOpening(CityKind kind) { return kind == CityKind::Window || kind == CityKind::Door; }
 
+bool holdsOpenings(CityKind kind) { return kind == CityKind::Wall || kind == CityKind::Roof; }
+
 CityKind cityKindNamed(std::string_view name) {
   for (size_t k = 1; k < kCityKinds; ++k) {
     const CityKindSpec& s = kSpecs[k];
@@ -163,6 +166,19 @@ CityWord cityWordOf(std::string_view name) {
 
 CityKind cityKindOfIdentifier(std::string_view name) { return cityWordOf(name).kind; }
 
+CityKind cityKindOfLabel(std::string_view label) {
+  CityKind kind = cityKindNamed(label);
+  if (kind != CityKind::Unknown) return kind;
+  for (const std::string_view ofRoofs : {"roof.top", "roof.side", "roof.bottom"}) {
+    if (label == ofRoofs) return kind;
+  }
+  forEachWord(label, [&](const std::string& word) {
+    kind = kindOfWord(word);
+    return kind != CityKind::Unknown;
+  });
+  return kind;
+}
+
 bool isTrim(std::string_view name) {
   bool is = false;
   forEachWord(ownName(name), [&](const std::string& word) {
@@ -191,7 +207,14 @@ CityParts::CityParts(const Scene& scene) {
     if (isLot && !height) height = heightOfBody(*scene.meshes[l.mesh]);
   }
   for (const auto& set : scene.attributeSets) readAttributes(scene, set);
-  findWholes(scene);
+  named_ = wholesOf(scene, [this](const Leaf& leaf) {
+    const CityPart part = of(leaf);
+    return part.kind == CityKind::Unknown ? std::nullopt : std::optional(part);
+  });
+  said_ = wholesOf(scene, [this](const Leaf& leaf) { return std::optional(saidBy(leaf)); });
+  findOpenings(scene);
+  leafCounts_ = prototypeLeafCounts(scene);
+  countUses(scene);
 }
 
 uint32_t CityParts::numberOf(const std::string& text) {
@@ -231,9 +254,12 @@ CityKind CityParts::kindOf(const CityWord& name, const Leaf& leaf) const {
   return stands ? CityKind::Unknown : name.kind;
 }
 
+CityPart CityParts::saidBy(const Leaf& leaf) const {
+  return leaf.attributes < setParts_.size() ? setParts_[leaf.attributes] : CityPart{};
+}
+
 CityPart CityParts::of(const Leaf& leaf) const {
-  CityPart part;
-  if (leaf.attributes < setParts_.size()) part = setParts_[leaf.attributes];
+  CityPart part = saidBy(leaf);
   if (part.kind == CityKind::Unknown && leaf.name < names_.size()) {
     part.kind = kindOf(names_[leaf.name], leaf);
   }
@@ -244,31 +270,60 @@ CityPart CityParts::of(const Leaf& leaf) const {
   return part;
 }
 
-void CityParts::findWholes(const Scene& scene) {
-  whole_.assign(scene.prototypes.size(), Whole::Empty);
-  wholePart_.resize(scene.prototypes.size());
-  uses_.assign(scene.prototypes.size(), 0);
-  const auto use = [&](uint32_t p) {
-    uses_[p] = static_cast<uint8_t>(uses_[p] < 2 ? uses_[p] + 1 : 2);
-  };
+void CityParts::Wholes::take(size_t p, const CityPart& of, Whole how) {
+  if (how == Whole::Empty || whole[p] == Whole::Mixed) return;
+  const bool differs = whole[p] == Whole::One && !(part[p] == of);
+  whole[p] = differs ? Whole::Mixed : how;
+  part[p] = of;
+}
+
+// `partOf` gives nothing for leaves that no prototype may be whole with.
+template <class PartOf>
+CityParts::Wholes CityParts::wholesOf(const Scene& scene, PartOf&& partOf) {
+  using Whole = Wholes::Whole;
+  Wholes out;
+  out.whole.assign(scene.prototypes.size(), Whole::Empty);
+  out.part.resize(scene.prototypes.size());
   for (size_t p = 0; p < scene.prototypes.size(); ++p) {
     const Prototype& prototype = scene.prototypes[p];
-    const auto take = [&](const CityPart& part, Whole how) {
-      if (how == Whole::Empty || whole_[p] == Whole::Mixed) return;
-      const bool differs = whole_[p] == Whole::One && !(wholePart_[p] == part);
-      whole_[p] =
-          how == Whole::Mixed || differs || part.kind == CityKind::Unknown ? Whole::Mixed : how;
-      wholePart_[p] = part;
-    };
-    for (uint32_t l = 0; l < prototype.leafCount && whole_[p] != Whole::Mixed; ++l) {
+    for (uint32_t l = 0; l < prototype.leafCount && out.whole[p] != Whole::Mixed; ++l) {
       work();
-      take(of(scene.leaves[prototype.firstLeaf + l]), Whole::One);
+      const std::optional<CityPart> part = partOf(scene.leaves[prototype.firstLeaf + l]);
+      out.take(p, part.value_or(CityPart{}), part ? Whole::One : Whole::Mixed);
     }
     for (uint32_t i = 0; i < prototype.instanceCount; ++i) {
       work();
       const uint32_t inner = scene.instances[prototype.firstInstance + i].prototype;
-      use(inner);
-      take(wholePart_[inner], whole_[inner]);
+      out.take(p, out.part[inner], out.whole[inner]);
+    }
+  }
+  return out;
+}
+
+void CityParts::findOpenings(const Scene& scene) {
+  hasOpening_.assign(scene.prototypes.size(), false);
+  for (size_t p = 0; p < scene.prototypes.size(); ++p) {
+    const Prototype& prototype = scene.prototypes[p];
+    for (uint32_t l = 0; l < prototype.leafCount && !hasOpening_[p]; ++l) {
+      work();
+      hasOpening_[p] = isOpening(of(scene.leaves[prototype.firstLeaf + l]).kind);
+    }
+    for (uint32_t i = 0; i < prototype.instanceCount && !hasOpening_[p]; ++i) {
+      work();
+      hasOpening_[p] = hasOpening_[scene.instances[prototype.firstInstance + i].prototype];
+    }
+  }
+}
+
+void CityParts::countUses(const Scene& scene) {
+  uses_.assign(scene.prototypes.size(), 0);
+  const auto use = [&](uint32_t p) {
+    uses_[p] = static_cast<uint8_t>(uses_[p] < 2 ? uses_[p] + 1 : 2);
+  };
+  for (const Prototype& prototype : scene.prototypes) {
+    for (uint32_t i = 0; i < prototype.instanceCount; ++i) {
+      work();
+      use(scene.instances[prototype.firstInstance + i].prototype);
     }
   }
   for (const Root& r : scene.roots) use(r.instance.prototype);

@@ -5,8 +5,10 @@
 // for it comes, in this order, from
 //   1. the attribute cityPart of the leaf, which rules set: a name of the table below, or the word
 //      that CityJSON or IFC have for it ("WallSurface", "IfcWall");
-//   2. the last word of the leaf's name that says it: FrontDoor is a door, DoorWall a wall;
-//   3. the last such word of the rule that made it.
+//   2. the label (@Label) or the tag of the nearest shape above it that has one which says it;
+//      names go before it where they say a window or a door in a wall or a roof;
+//   3. the last word of the leaf's name that says it: FrontDoor is a door, DoorWall a wall;
+//   4. the last such word of the rule that made it.
 // Of a name only what follows its last dot counts: what stands before is the name of an import.
 // What none of them says is unknown: part of the building, told by where it looks.
 // docs/guide/city-models.md has the table for authors of rules.
@@ -74,6 +76,8 @@ bool isOfBuilding(CityKind kind);
 bool isSolitary(CityKind kind);
 /// Has a semantic surface for each of it: windows and doors.
 bool isOpening(CityKind kind);
+/// Openings are in it: walls and roofs.
+bool holdsOpenings(CityKind kind);
 
 /// A kind by a name of its row, whatever the case of its letters; Unknown for any other text.
 CityKind cityKindNamed(std::string_view name);
@@ -88,6 +92,10 @@ struct CityWord {
 CityWord cityWordOf(std::string_view name);
 /// Its kind alone.
 CityKind cityKindOfIdentifier(std::string_view name);
+/// What a label or a tag says: a name of the table, else the last telling word of all its text. The
+/// tags that roofs give their faces (roof.top, roof.side, roof.bottom) say nothing: the sides of a
+/// roof are walls.
+CityKind cityKindOfLabel(std::string_view label);
 /// True where a name has only words of what windows have, and doors, railings and roofs as well,
 /// such as Frame: the rule's name counts before it, unless that is a wall.
 bool isTrim(std::string_view name);
@@ -97,20 +105,29 @@ struct CityPart {
   CityKind kind = CityKind::Unknown;
   /// Of the attributes cityObject and cityStorey: indices into CityParts::texts(), 0 for none.
   uint32_t object = 0, storey = 0;
+  /// LabelledLeaves::shape where a label says the kind, 0 elsewhere.
+  uint32_t shape = 0;
   friend bool operator==(const CityPart&, const CityPart&) = default;
 };
 
-/// The parts of a scene's leaves.
+/// The parts of a scene's leaves, as names and attributes say them.
 class CityParts {
  public:
   /// Linear in what the scene stores.
   explicit CityParts(const Scene& scene);
 
   CityPart of(const Leaf& leaf) const;
-  /// True where all leaves of a prototype, instances expanded, are of one part that is known.
-  bool isWhole(uint32_t prototype) const { return whole_[prototype] == Whole::One; }
-  /// The part of a prototype that is whole.
-  const CityPart& wholePart(uint32_t prototype) const { return wholePart_[prototype]; }
+  /// What its attributes alone say.
+  CityPart saidBy(const Leaf& leaf) const;
+  /// The part that all leaves of a prototype are of, instances expanded; null where they differ, or
+  /// where it is not known.
+  const CityPart* wholePart(uint32_t prototype) const { return named_.one(prototype); }
+  /// The same by attributes alone; its kind may be unknown.
+  const CityPart* wholeSaid(uint32_t prototype) const { return said_.one(prototype); }
+  /// Names or attributes say an opening of some leaf of a prototype, instances expanded.
+  bool hasOpening(uint32_t prototype) const { return hasOpening_[prototype]; }
+  /// Of a prototype, instances expanded.
+  uint64_t leafCount(uint32_t prototype) const { return leafCounts_[prototype]; }
   /// How often instances and roots show a prototype, 2 for more.
   uint8_t uses(uint32_t prototype) const { return uses_[prototype]; }
   const std::string& text(uint32_t number) const { return texts_[number]; }
@@ -118,9 +135,19 @@ class CityParts {
   const std::vector<std::string>& unknownWords() const { return unknownWords_; }
 
  private:
-  enum class Whole : uint8_t { Empty, One, Mixed };
+  // By prototype, whether its leaves are of one part, and which.
+  struct Wholes {
+    enum class Whole : uint8_t { Empty, One, Mixed };
+    std::vector<Whole> whole;
+    std::vector<CityPart> part;
+    const CityPart* one(uint32_t p) const { return whole[p] == Whole::One ? &part[p] : nullptr; }
+    void take(size_t prototype, const CityPart& of, Whole how);
+  };
   void readAttributes(const Scene& scene, const std::vector<uint32_t>& set);
-  void findWholes(const Scene& scene);
+  template <class PartOf>
+  static Wholes wholesOf(const Scene& scene, PartOf&& partOf);
+  void countUses(const Scene& scene);
+  void findOpenings(const Scene& scene);
   uint32_t numberOf(const std::string& text);
 
   CityKind kindOf(const CityWord& name, const Leaf& leaf) const;
@@ -134,8 +161,9 @@ class CityParts {
   std::vector<std::string> texts_{""};
   std::map<std::string, uint32_t> textNumbers_;
   std::vector<std::string> unknownWords_;
-  std::vector<Whole> whole_;
-  std::vector<CityPart> wholePart_;
+  Wholes named_, said_;
+  std::vector<bool> hasOpening_;
+  std::vector<uint64_t> leafCounts_;
   std::vector<uint8_t> uses_;
 };
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include "base/files.h"
@@ -100,6 +101,91 @@ TEST(CityKinds, lastTellingWordOfAName) {
   EXPECT_EQ(cityKindNamed("IfcSlab"), CityKind::Floor);
   EXPECT_EQ(cityKindNamed("SolitaryVegetationObject"), CityKind::Tree);
   EXPECT_EQ(cityKindNamed("Wal"), CityKind::Unknown);
+}
+
+TEST(CityKinds, whatLabelsAndTagsSay) {
+  EXPECT_EQ(cityKindOfLabel("window"), CityKind::Window);
+  EXPECT_EQ(cityKindOfLabel("IfcStair"), CityKind::Stair);
+  EXPECT_EQ(cityKindOfLabel("front door"), CityKind::Door);
+  EXPECT_EQ(cityKindOfLabel("Facade.North"), CityKind::Wall);
+  EXPECT_EQ(cityKindOfLabel("RoofSurface"), CityKind::Roof);
+  // The sides of a roof are walls.
+  EXPECT_EQ(cityKindOfLabel("roof.side"), CityKind::Unknown);
+  EXPECT_EQ(cityKindOfLabel("extrude.top"), CityKind::Unknown);
+  EXPECT_EQ(cityKindOfLabel(""), CityKind::Unknown);
+}
+
+// A wall with two windows of one prototype, of a frame and a pane that say nothing, and what is
+// said of them: they touch, and the second has a handle apart.
+City labelledWall(std::vector<LabelledLeaves>& labels) {
+  City c;
+  c.box("A", {0, 0, 0}, {1, 1, 0.1});
+  c.box("B", {0.1, 0.1, 0}, {0.8, 0.8, 0.05});
+  const uint32_t window = c.prototype("Opening");
+  c.box("C", {0, 0, -0.2}, {8, 4, 0.2});
+  c.instance(window, Frame::moved({1, 1, 0}));
+  c.instance(window, Frame::moved({2, 1, 0}));
+  c.box("D", {6, 1, 0}, {0.1, 0.1, 0.1});
+  c.box("E", {0, 4, -4}, {8, 0.2, 4.2}, c.says("cityPart", "Floor"));
+  c.root("Long Street 6", c.prototype("Lot"), Frame{});
+  labels = {{0, 1, 1, "wall"}, {1, 3, 2, "window"}, {3, 6, 3, "window"}, {6, 7, 4, "door"}};
+  return c;
+}
+
+TEST(CityJsonWriter, labelsSayWhatSurfacesAre) {
+  WriteOptions options;
+  options.detail = WriteOptions::Detail::Three;
+  std::vector<LabelledLeaves> labels;
+  const City c = labelledWall(labels);
+  options.labelsOf = [&](size_t) { return labels; };
+  const JsonValue json = written(c.scene, "labelled.city.json", options);
+  std::map<std::string, int> types;
+  for (const auto& [id, object] : json["CityObjects"].members()) {
+    for (const JsonValue& g : object["geometry"].items()) {
+      for (const JsonValue& s : g["semantics"]["surfaces"].items()) ++types[s["type"].text()];
+    }
+  }
+  // Two windows, though they touch, and the attribute goes before the label.
+  EXPECT_EQ(types["Window"], 2);
+  EXPECT_EQ(types["Door"], 0);
+  EXPECT_GE(types["WallSurface"], 1);
+}
+
+// The panes of a dormer.
+TEST(Ifc, namesSayOpeningsInLabelledWallsAndRoofs) {
+  City c;
+  c.box("Tiles", {0, 0, 0}, {2, 2, 2});
+  c.box("Glass", {0.5, 0.5, 2}, {1, 1, 0.1});
+  const uint32_t dormer = c.prototype("Dormer");
+  c.instance(dormer, Frame::moved({1, 1, 0}));
+  c.instance(dormer, Frame::moved({5, 1, 0}));
+  c.root("Long Street 7", c.prototype("Lot"), Frame{});
+  WriteOptions options;
+  options.labelsOf = [](size_t) {
+    return std::vector<LabelledLeaves>{{0, 2, 1, "roof"}, {2, 4, 2, "roof"}};
+  };
+  const std::string path = inWritten("dormers.ifc");
+  ASSERT_TRUE(writeModel(c.scene, path, options).ok());
+  const std::string text = readFile(path).value();
+  EXPECT_EQ(countOf(text, "=IFCROOF("), 2u);
+  EXPECT_EQ(countOf(text, "=IFCWINDOW("), 2u);
+}
+
+TEST(Ifc, labelsSayWhatElementsAre) {
+  WriteOptions options;
+  std::vector<LabelledLeaves> labels;
+  const City c = labelledWall(labels);
+  options.labelsOf = [&](size_t) { return labels; };
+  const std::string path = inWritten("labelled.ifc");
+  ASSERT_TRUE(writeModel(c.scene, path, options).ok());
+  const std::string text = readFile(path).value();
+  EXPECT_EQ(countOf(text, "=IFCWINDOW("), 2u);
+  EXPECT_EQ(countOf(text, "=IFCWALL("), 1u);
+  EXPECT_EQ(countOf(text, "=IFCSLAB("), 1u);
+  EXPECT_EQ(countOf(text, "=IFCDOOR("), 0u);
+  // The first is all of its shape and is mapped; the second has more than the prototype.
+  EXPECT_EQ(countOf(text, "=IFCMAPPEDITEM("), 1u);
+  EXPECT_EQ(countOf(text, "=IFCBUILDINGELEMENTPROXY("), 0u);
 }
 
 TEST(CityJsonWriter, aLotBecomesABuildingTreesAndAPath) {

@@ -21,6 +21,7 @@
 #include "io/exporters/city_place.h"
 #include "io/exporters/ifc_elements.h"
 #include "io/exporters/ifc_storeys.h"
+#include "io/exporters/root_parts.h"
 #include "io/exporters/step_text.h"
 #include "io/exporters/write_model.h"
 #include "scene/flatten.h"
@@ -46,6 +47,7 @@ class IfcWriter {
         file_(path),
         axes_(file_),
         kinds_(scene),
+        parts_(kinds_),
         faces_(scene),
         triangles_(scene),
         place_(options.geo, scene.geoOrigin),
@@ -97,6 +99,7 @@ class IfcWriter {
   StepFile file_;
   IfcAxesWriter axes_;
   CityParts kinds_;
+  RootParts parts_;
   CityFaces faces_;
   TriangleCache triangles_;
   CityPlace place_;
@@ -209,9 +212,10 @@ void IfcWriter::writeSite() {
 void IfcWriter::measure(const Root& root, CityKind kind) {
   levels_.clear();
   builds_ = false;
+  parts_.begin();
   forEachLeaf(scene_, scene_.prototypes[root.instance.prototype], root.instance.frame,
               [&](const Leaf& leaf, const Frame& world) {
-                const CityPart part = partWithin(kinds_.of(leaf), kind);
+                const CityPart part = partWithin(parts_.next(leaf), kind);
                 if (!isOfBuilding(part.kind)) return;
                 builds_ = true;
                 levels_.add(leaf, world, part);
@@ -324,7 +328,7 @@ bool isNear(const Vec3& p) {
 void IfcWriter::addLeaf(uint32_t index, const Frame& around, CityKind kindOfShape) {
   const Leaf& leaf = scene_.leaves[index];
   const Frame world = around * leaf.frame;
-  const CityPart part = partWithin(kinds_.of(leaf), kindOfShape);
+  const CityPart part = partWithin(parts_.next(leaf), kindOfShape);
   const Box3 box = faces_.boxOf(leaf, world);
   // Of what is unknown the name is all that there is.
   const bool other = part.kind == CityKind::Unknown && leaf.name != open_.name;
@@ -388,7 +392,8 @@ void IfcWriter::writeRoot(uint32_t number) {
   guids_ = 0;
   const Attributes known = options_.attributesOf ? options_.attributesOf(number) : Attributes{};
   const std::string& name = root.name < scene_.names.size() ? scene_.names[root.name] : path_;
-  const CityKind kind = kindOrLand(scene_, kinds_, root, kindOfShape(name, known));
+  parts_.open(options_.labelsOf ? options_.labelsOf(number) : std::vector<LabelledLeaves>{});
+  const CityKind kind = kindOrLand(scene_, parts_, root, kindOfShape(name, known));
   measure(root, kind);
   levels_.divide(storeyCountOf(known));
   const std::string title = titleOfShape(name, known);
@@ -397,10 +402,13 @@ void IfcWriter::writeRoot(uint32_t number) {
   rootNumber_ = hashBytes(title, ++titles_[title]);
   if (builds_) openBuilding();
   const auto enter = [&](const Instance& in, const Frame& world) {
-    const bool maps = kinds_.isWhole(in.prototype) && kinds_.uses(in.prototype) > 1;
-    if (maps) addInstance(in, world, partWithin(kinds_.wholePart(in.prototype), kind));
-    return !maps;
+    const std::optional<CityPart> part = parts_.whole(in.prototype);
+    if (!part || kinds_.uses(in.prototype) < 2) return true;
+    addInstance(in, world, partWithin(*part, kind));
+    parts_.skip(in.prototype);
+    return false;
   };
+  parts_.begin();
   if (enter(root.instance, root.instance.frame)) {
     walk(
         scene_, scene_.prototypes[root.instance.prototype], root.instance.frame,

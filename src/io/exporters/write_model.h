@@ -30,6 +30,16 @@ namespace gable {
 /// The bytes of a texture by the path that a material names.
 using TextureReader = std::function<Result<std::string>(const std::string& path)>;
 
+/// Leaves of a root that their rules say something of, by @Label or by a tag: those of one labelled
+/// shape, without what has a label of its own within it.
+struct LabelledLeaves {
+  /// Their places among the leaves of the root in path order, instances expanded.
+  uint64_t first = 0, end = 0;
+  /// From 1; the pieces of one shape have one number.
+  uint32_t shape = 0;
+  std::string label;
+};
+
 struct WriteOptions {
   /// Without a reader, files stand for themselves: paths are opened as they are.
   TextureReader readTexture;
@@ -87,6 +97,9 @@ struct WriteOptions {
   /// City models and building models: what is known of an initial shape, by the number of its root;
   /// of equal names the first counts. Without a function nothing is.
   std::function<std::vector<AttributeValue>(size_t root)> attributesOf;
+  /// City models and building models: the labels of a root's leaves, ascending and without
+  /// overlaps. Without a function there are none.
+  std::function<std::vector<LabelledLeaves>(size_t root)> labelsOf;
   /// Where the world lies on the Earth; null where the scene's origin says it, or nobody knows.
   const GeoFrame* geo = nullptr;
 };

@@ -4,7 +4,7 @@
 // Tiles in Cesium: check.mjs TILES [PICTURE]. Serves the folder of a tileset, loads it in Cesium in
 // a headless Chromium, waits until all that is seen has come, as long as something comes, picks what
 // stands in the middle and reads its attributes. Ends with an error where Cesium tells one, a tile fails, or nothing is
-// picked. `tools/cesium/check.sh` installs what it needs.
+// picked. It runs in the folder that has its packages: tests/partners/cesium.sh.
 
 import { createReadStream, existsSync, statSync } from 'node:fs';
 import { createServer } from 'node:http';

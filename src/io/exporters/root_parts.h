@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+//
+// What the leaves of one initial shape are, in path order: by their attributes, by the labels and
+// tags of the shapes above them, by their names (city_kinds.h). A reader goes along as walk() does:
+// it takes each leaf by next() or an instance as a whole by skip().
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "io/exporters/city_kinds.h"
+#include "io/exporters/write_model.h"
+
+namespace gable {
+
+class RootParts {
+ public:
+  /// `kinds` must outlive it.
+  explicit RootParts(const CityParts& kinds) : kinds_(kinds) {}
+
+  /// Another root; labels that say no part are left out.
+  void open(const std::vector<LabelledLeaves>& labels);
+  /// Back to the first leaf.
+  void begin();
+  /// The part of the leaf that comes next.
+  CityPart next(const Leaf& leaf);
+  /// The part that an instance which comes next is of with all its leaves, if it is of one; of a
+  /// labelled shape it has to be the whole.
+  std::optional<CityPart> whole(uint32_t prototype);
+  /// The instance that comes next was taken as a whole.
+  void skip(uint32_t prototype) { at_ += kinds_.leafCount(prototype); }
+
+ private:
+  struct Label {
+    uint64_t first = 0, end = 0;
+    CityKind kind = CityKind::Unknown;
+    uint32_t shape = 0;
+  };
+  /// The label of the leaf that comes next, or null.
+  const Label* label();
+
+  const CityParts& kinds_;
+  std::vector<Label> labels_;
+  uint64_t at_ = 0;
+  /// No label before it reaches as far as the next leaf.
+  size_t near_ = 0;
+};
+
+}  // namespace gable
