@@ -4,9 +4,15 @@
 // The command line: options to arguments, one command each.
 
 #include <CLI/CLI.hpp>
+
+#ifdef GABLE_WITH_MIMALLOC
+#include <mimalloc.h>
+#endif
+
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 
 #include "answer.h"
 #include "city.h"
@@ -641,9 +647,19 @@ void addStudio(CLI::App& app, StudioArguments& a, int& status) {
   studio->callback([&a, &status] { status = runStudioCommand(a); });
 }
 
+// Pages of two megabytes: the system gives out and takes back a tenth as many. A town takes less of
+// the processor, a key in it half, and what is interrupted ends sooner, for some more memory.
+// MIMALLOC_LARGE_OS_PAGES=0 keeps the small ones.
+void useLargePages() {
+#ifdef GABLE_WITH_MIMALLOC
+  mi_option_set_enabled_default(mi_option_large_os_pages, true);
+#endif
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  useLargePages();
   CLI::App app("Gable turns rules into places: shape grammars (CGA) in, 3D models out.", "gable");
   app.set_version_flag("--version", versionText());
   app.footer(exitText() +
@@ -730,5 +746,8 @@ int main(int argc, char** argv) {
   }
   // --watch has answered for each run.
   if (!answer().given()) printAnswer(status);
-  return finishOutput(status);
+  status = finishOutput(status);
+  // What is still held the system frees at once.
+  if (*cancelFlag()) std::_Exit(status);
+  return status;
 }

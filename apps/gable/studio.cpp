@@ -5,10 +5,6 @@
 
 #include "gable/studio.h"
 
-#ifdef GABLE_WITH_MIMALLOC
-#include <mimalloc.h>
-#endif
-
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
@@ -44,19 +40,9 @@ std::string escaped(const std::string& path) {
   return out;
 }
 
-// Each key makes a scene anew and frees an older one: with pages of two megabytes the system gives
-// out a tenth as many, and a key in a town takes half of the processor, for more memory.
-// MIMALLOC_LARGE_OS_PAGES=0 keeps the small ones.
-void useLargePages() {
-#ifdef GABLE_WITH_MIMALLOC
-  mi_option_set_enabled_default(mi_option_large_os_pages, true);
-#endif
-}
-
 }  // namespace
 
 int runStudioCommand(const StudioArguments& arguments) {
-  useLargePages();
   gable::StudioSettings settings;
   const auto [project, file] = projectOf(arguments.folder);
   const std::string address = file.empty() ? std::string() : "#file=" + escaped(file);
