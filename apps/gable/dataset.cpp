@@ -25,6 +25,7 @@ bool parseShard(const std::string& text, gable::DatasetSettings::Shard& shard) {
 
 int datasetSettings(const DatasetArguments& a, gable::DatasetSettings& s) {
   if (const int status = pictureSettings(a.picture, s.picture)) return status;
+  s.picture.cancel = cancelFlag();
   s.count = a.count;
   s.cameras = a.cameras;
   s.placing = gable::datasetCamerasNamed(a.placing).value_or(s.placing);
