@@ -161,11 +161,14 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
   return deriveSettings(arguments, inputs.settings);
 }
 
+gable::Model& heldModel() {
+  static gable::Model& model = *new gable::Model(nullptr);
+  return model;
+}
+
 gable::Model deriveModel(const gable::Rules& rules, const gable::Shapes& shapes,
                          gable::DeriveSettings settings, std::FILE* prints) {
-  // Held to the end of the process, which frees it at once: piece by piece a large one takes tenths
-  // of a second.
-  static gable::Model& held = *new gable::Model(nullptr);
+  gable::Model& held = heldModel();
   held = gable::Model(nullptr);
   held = [&] {
     Progress progress("deriving", "shapes");

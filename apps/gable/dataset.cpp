@@ -9,7 +9,6 @@
 #include "commands.h"
 #include "derive_settings.h"
 #include "gable/names.h"
-#include "memory.h"
 #include "progress.h"
 
 namespace {
@@ -26,6 +25,7 @@ bool parseShard(const std::string& text, gable::DatasetSettings::Shard& shard) {
 
 int datasetSettings(const DatasetArguments& a, gable::DatasetSettings& s) {
   if (const int status = pictureSettings(a.picture, s.picture)) return status;
+  s.picture.cancel = cancelFlag();
   s.count = a.count;
   s.cameras = a.cameras;
   s.placing = gable::datasetCamerasNamed(a.placing).value_or(s.placing);
@@ -64,8 +64,6 @@ int statusOfDataset(const gable::DatasetResult& result) {
 }  // namespace
 
 int runDataset(const DatasetArguments& arguments) {
-  // Each picture takes and gives back a quarter of a gigabyte, most of it in large pieces.
-  useLargePages();
   gable::DatasetSettings settings;
   if (const int status = datasetSettings(arguments, settings)) return status;
   Inputs inputs;

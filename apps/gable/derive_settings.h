@@ -19,6 +19,10 @@ gable::FeatureSelection selectionOf(const DeriveArguments& arguments);
 /// The rules that the arguments name; an exit status other than kExitDone when they are not usable.
 int readRules(const DeriveArguments& arguments, gable::Rules& rules);
 
+/// The model that is worked with. It lives to the end of the process, which frees it at once; piece
+/// by piece a large one takes tenths of a second.
+gable::Model& heldModel();
+
 /// Derives, with a line of progress. What the rules print goes to `prints`.
 gable::Model deriveModel(const gable::Rules& rules, const gable::Shapes& shapes,
                          gable::DeriveSettings settings, std::FILE* prints);

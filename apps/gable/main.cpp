@@ -4,9 +4,11 @@
 // The command line: options to arguments, one command each.
 
 #include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 
 #include "answer.h"
 #include "city.h"
@@ -16,6 +18,7 @@
 #include "gable/files.h"
 #include "gable/names.h"
 #include "gable/writing.h"
+#include "memory.h"
 #include "tiles.h"
 #include "tiles_viewer.h"
 #include "version.h"
@@ -644,6 +647,7 @@ void addStudio(CLI::App& app, StudioArguments& a, int& status) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  useLargePages();
   CLI::App app("Gable turns rules into places: shape grammars (CGA) in, 3D models out.", "gable");
   app.set_version_flag("--version", versionText());
   app.footer(exitText() +
@@ -730,5 +734,8 @@ int main(int argc, char** argv) {
   }
   // --watch has answered for each run.
   if (!answer().given()) printAnswer(status);
-  return finishOutput(status);
+  status = finishOutput(status);
+  // What is still held the system frees at once.
+  if (*cancelFlag()) std::_Exit(status);
+  return status;
 }

@@ -11,7 +11,6 @@
 #include "derive_settings.h"
 #include "gable/builtins.h"
 #include "gable/names.h"
-#include "memory.h"
 #include "progress.h"
 #include "watch.h"
 
@@ -184,7 +183,6 @@ int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
   s.jobs = a.derive.jobs;
   s.limits = fileLimits(a.derive.limits);
   if (!a.derive.limits.maxSeconds) s.limits.seconds.reset();
-  s.cancel = cancelFlag();
   if (const int status = lightSettings(a, s)) return status;
   double sun[2];
   if (!a.sun.empty()) {
@@ -324,7 +322,8 @@ int renderOnce(RenderArguments arguments) {
   }
   gable::PictureSettings settings;
   if (const int status = pictureSettings(arguments, settings)) return status;
-  gable::Model model(nullptr);
+  gable::Model& model = heldModel();
+  model = gable::Model(nullptr);
   if (const int status = makeModel(arguments, model)) return status;
   settings.look = gable::lookNamed(arguments.look).value_or(settings.look);
   print(model.diagnostics());
@@ -354,7 +353,6 @@ int runWatch(const RenderArguments& arguments) {
 }
 
 int runRender(const RenderArguments& arguments) {
-  useLargePages();
   if (arguments.count > 0) {
     return forSeeds(arguments.count, arguments.derive.seed, [&](const std::string& seed) {
       RenderArguments each = arguments;

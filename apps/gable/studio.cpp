@@ -13,7 +13,6 @@
 
 #include "commands.h"
 #include "folders.h"
-#include "memory.h"
 
 namespace {
 
@@ -44,9 +43,6 @@ std::string escaped(const std::string& path) {
 }  // namespace
 
 int runStudioCommand(const StudioArguments& arguments) {
-  // Each key makes a scene anew and frees an older one: with large pages the system gives out a
-  // tenth as many, and a key in a town takes half of the processor.
-  useLargePages();
   gable::StudioSettings settings;
   const auto [project, file] = projectOf(arguments.folder);
   const std::string address = file.empty() ? std::string() : "#file=" + escaped(file);

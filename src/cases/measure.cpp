@@ -10,6 +10,8 @@
 #include <cmath>
 #include <map>
 
+#include "base/work.h"
+
 namespace gable::cases {
 
 namespace {
@@ -42,6 +44,7 @@ std::vector<PlacedLeaf> placedLeaves(const Scene& scene) {
   std::vector<PlacedLeaf> leaves;
   forEachLeaf(scene, [&](const Leaf& leaf, const Frame& world) {
     const Mesh& unit = *scene.meshes[leaf.mesh];
+    work(unit.positions.size());
     Vec3 size = scaled(unit.bounds().size(), leaf.scale);
     for (size_t axis = 0; axis < 3; ++axis) size[axis] = std::abs(size[axis]);
     leaves.push_back({&leaf, scene.names[leaf.name], transformed(unit, leaf.scale, world), size});
@@ -62,6 +65,7 @@ double volume(const Mesh& mesh) {
 }
 
 bool isClosed(const Mesh& mesh) {
+  work(mesh.corners.size());
   // Each edge counts up one way and down the other.
   std::map<std::array<Key, 2>, int> balance;
   for (size_t face = 0; face < mesh.faceCount(); ++face) {

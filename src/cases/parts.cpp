@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "base/work.h"
 #include "cases/measure.h"
 #include "geom/mesh/face_triangles.h"
 #include "scene/flatten.h"
@@ -43,6 +44,7 @@ Box3 Parts::grown(Box3 box, double by) {
 }
 
 Parts::Form Parts::formOf(const Mesh& mesh) {
+  work(1 + mesh.corners.size());
   Form form;
   FaceTriangulator triangulator;
   for (size_t face = 0; face < mesh.faceCount(); ++face) {

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/allowance.h"
 #include "base/files.h"
 #include "base/number.h"
 #include "base/temporary_folder.h"
@@ -125,6 +126,9 @@ bool CaseRun::stopped() const { return settings_.cancel && settings_.cancel->loa
 CaseResult CaseRun::run() {
   const double begin = now();
   try {
+    // Derivations and files have limits of their own; all else hears the wish to stop.
+    Allowance allowance({{}, {}, settings_.cancel});
+    const WorkScope scope(allowance);
     if (!stopped()) runCase();
   } catch (...) {
     fail(0, diagnosticOfException().message);

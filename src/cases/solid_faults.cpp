@@ -15,6 +15,7 @@
 #include <limits>
 
 #include "base/disjoint_sets.h"
+#include "base/work.h"
 #include "cases/measure.h"
 
 namespace gable::cases {
@@ -33,10 +34,12 @@ struct Meeting {
   std::vector<Triangle> first, second;
 
   bool find(const Parts& parts, uint32_t a, uint32_t b, double gap) {
+    work();
     first.clear();
     second.clear();
     parts.trianglesNear(a, Parts::grown(parts[b].box, gap), first);
     if (!first.empty()) parts.trianglesNear(b, Parts::grown(parts[a].box, gap), second);
+    work(first.size() + second.size());
     return !second.empty();
   }
 };
@@ -70,6 +73,7 @@ struct Body {
 
 // How far two bodies overlap along a direction.
 double overlapAlong(const Vec3& d, const Mesh& a, const Mesh& b) {
+  work(a.positions.size() + b.positions.size());
   double lowA = INFINITY, highA = -INFINITY, lowB = INFINITY, highB = -INFINITY;
   for (const Vec3& p : a.positions) {
     lowA = std::min(lowA, dot(p, d));
@@ -130,6 +134,7 @@ double edgeDepth(const Parts& parts, uint32_t edges, uint32_t body) {
   std::vector<double> stops;
   for (const Triangle& t : own) {
     for (size_t i = 0; i < 3; ++i) {
+      work();
       const Vec3 from = t[i], along = t[(i + 1) % 3] - from;
       near.clear();
       parts.trianglesNear(body, boundsOf({{from, from + along, from}}), near);

@@ -10,6 +10,7 @@
 #include <atomic>
 #include <mutex>
 #include <set>
+#include <utility>
 
 #include "base/file_lock.h"
 #include "base/parallel.h"
@@ -49,6 +50,11 @@ std::optional<Error> mistakeIn(const DatasetSettings& s) {
     return wrong("the mesh's format is not known", "name an extension that models have, as glb");
   }
   return std::nullopt;
+}
+
+bool wasCancelled(const DiagnosticList& diagnostics) {
+  return std::any_of(diagnostics.begin(), diagnostics.end(),
+                     [](const Diagnostic& d) { return d.code == "was-cancelled"; });
 }
 
 class Maker {
@@ -135,9 +141,12 @@ class Maker {
     settings.jobs = threads_;
     settings.progress = nullptr;
     settings.limits = settings_.limits;
+    // Half a picture is none.
+    if (settings.cancel) settings.limits.cancel = std::exchange(settings.cancel, nullptr);
     const PictureData picture = maker.draw(settings);
     if (!picture.ok) {
-      return hasErrors(picture.diagnostics) ? stop(picture.diagnostics) : stopByLimit();
+      const bool limited = !hasErrors(picture.diagnostics) || wasCancelled(picture.diagnostics);
+      return limited ? stopByLimit() : stop(picture.diagnostics);
     }
     note(picture.diagnostics);
     const bool made = put(item.name, [&](const std::string& aside) {
@@ -151,9 +160,7 @@ class Maker {
     const DiagnosticList wrong = folder_.put(part, fill);
     if (wrong.empty()) return true;
     // What is half written when it is cancelled is made again by the next run.
-    const bool cancelled = std::any_of(
-        wrong.begin(), wrong.end(), [](const Diagnostic& d) { return d.code == "was-cancelled"; });
-    if (cancelled)
+    if (wasCancelled(wrong))
       stopByLimit();
     else
       stop(wrong);

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <utility>
 
 #include "base/allowance.h"
+#include "base/dispose.h"
 #include "base/parallel.h"
 #include "base/text.h"
 #include "builtins/catalogue.h"
@@ -272,6 +274,20 @@ void Model::Impl::makeSound(unsigned jobs) {
 
 namespace {
 
+// However long that takes, unless the user has stopped it: then there is no model.
+void makeSound(Model::Impl& model, const DeriveOptions& options) {
+  Allowance allowance({{}, {}, options.cancel});
+  const WorkScope scope(allowance);
+  const Status status = guarded([&] {
+    model.makeSound(options.jobs > 0 ? static_cast<unsigned>(options.jobs) : defaultJobs());
+    return Status();
+  });
+  if (status.ok()) return;
+  if (!allowance.reached()) throw Unwinding(status);
+  disposeLater(std::exchange(model.result, {}));
+  model.result.end = End::Cancelled;
+}
+
 // Within what the derivation has left of its limits.
 void layOnTerrain(Model::Impl& model, const TerrainSurface& terrain, const DeriveOptions& options,
                   double spent) {
@@ -346,7 +362,7 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
                                      cityRuleNotes(shapes.impl(), r)}) {
     impl->diagnostics.insert(impl->diagnostics.end(), some.begin(), some.end());
   }
-  impl->makeSound(options.jobs > 0 ? static_cast<unsigned>(options.jobs) : defaultJobs());
+  makeSound(*impl, options);
   if (shapes.impl().terrain) layOnTerrain(*impl, *shapes.impl().terrain, options, now() - begin);
   impl->seconds = now() - begin;
   return impl;

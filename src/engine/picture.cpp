@@ -131,10 +131,15 @@ Result<RenderOptions> renderOptions(const PictureSettings& s, const Scene& scene
   return o;
 }
 
+// What a limit ends, or the wish of the settings, is a picture all the same; the wish to stop of
+// the limits leaves none, and nobody waits for one.
 void watch(const PictureSettings& s, Allowance& allowance, RenderOptions& o) {
-  o.progress = [&s, &allowance](double share) {
+  const std::atomic<bool>* const cancel = s.cancel ? nullptr : s.limits.cancel;
+  o.progress = [&s, &allowance, cancel](double share) {
     if (s.progress) s.progress(static_cast<size_t>(share * 1000), 1000);
-    return allowance.look(0, 0);
+    if (allowance.look(0, 0)) return true;
+    if (cancel && *cancel) throw Unwinding(Status::failure(kWorkStopped, {}));
+    return false;
   };
 }
 
@@ -172,12 +177,25 @@ void tellSeconds(const PictureSettings& settings, const Picture& picture) {
   settings.timed("smoothing", seconds.denoise);
 }
 
+// What was drawn until then is written however long that takes.
+class Deaf final : public WorkMeter {
+ public:
+  bool look(uint64_t, uint64_t) override { return true; }
+};
+
+Result<std::string> pngOf(const Picture& picture) {
+  const Image image{picture.image.width, picture.image.height, toRgba8(picture.image)};
+  if (!picture.cancelled) return encodePng(image, 3);
+  Deaf deaf;
+  const WorkScope scope(deaf);
+  return encodePng(image, 3);
+}
+
 WriteResult writtenPicture(const Picture& picture, const std::string& path,
                            const PictureSettings& settings, const Task& task) {
   tellSeconds(settings, picture);
   const double begin = now();
-  const Result<std::string> png =
-      encodePng({picture.image.width, picture.image.height, toRgba8(picture.image)}, 3);
+  const Result<std::string> png = pngOf(picture);
   if (settings.timed) settings.timed("encoding", now() - begin);
   if (!png.ok()) return failed<WriteResult>(png.error());
   const Result<uint64_t> bytes = writeFile(path, png.value());

@@ -17,7 +17,7 @@
 
 #include <array>
 
-#include "base/parallel.h"
+#include "base/parallel_work.h"
 
 namespace gable::rt {
 
@@ -96,6 +96,7 @@ struct Guide {
       known[i] = luminance(film.albedo[i]) > kLeastTone ? 1.0f : 0.0f;
     }
     for (int y = 0; y < height; ++y) {
+      work(static_cast<size_t>(width));
       for (int x = 0; x < width; ++x) {
         const size_t i = index(x, y);
         light.set(i, film.irradiance[i], noiseAbout(film, x, y));
@@ -298,9 +299,15 @@ GABLE_WIDE void smoothRow(const Guide& guide, Planes& next, int reach, int gap, 
 /// A pass over all pixels.
 void smooth(Guide& guide, int reach, int gap, unsigned threads) {
   Planes next = guide.light;
-  parallelFor(
-      static_cast<size_t>(guide.height), threads,
-      [&](size_t row, unsigned) { smoothRow(guide, next, reach, gap, static_cast<int>(row)); }, 8);
+  constexpr int kRows = 8;
+  const int tasks = (guide.height + kRows - 1) / kRows;
+  parallelWork(static_cast<size_t>(tasks), threads, [&](size_t task, unsigned) {
+    const int from = static_cast<int>(task) * kRows;
+    for (int y = from; y < std::min(from + kRows, guide.height); ++y) {
+      work(kWorkBetweenLooks + 1);
+      smoothRow(guide, next, reach, gap, y);
+    }
+  });
   guide.light = std::move(next);
 }
 

@@ -13,7 +13,7 @@ namespace gable::rt {
 /// than that of paths.
 enum class Smoothing : uint8_t { None, Paths, Sky };
 
-/// The picture's linear light, exposure not applied.
+/// The picture's linear light, exposure not applied. The meter of the thread can stop smoothing.
 std::vector<Vec3f> resolve(const Film& film, Smoothing smoothing, unsigned threads);
 
 }  // namespace gable::rt

@@ -84,6 +84,7 @@ void Emitters::build() {
   nodes_[0].count = static_cast<uint32_t>(emitters_.size());
   for (size_t n = 0; n < nodes_.size(); ++n) {
     Node node = nodes_[n];
+    work(node.count);
     node.min = node.max = middleOf(emitters_[node.first]);
     Vec3f least = node.min, most = node.max;
     for (uint32_t i = node.first; i < node.first + node.count; ++i) {

@@ -14,6 +14,7 @@
 #include <span>
 
 #include "base/parallel.h"
+#include "base/work.h"
 #include "math/trig.h"
 #include "render/integrator.h"
 #include "render/sampler.h"
@@ -180,9 +181,11 @@ struct FilmSums {
     const size_t pixels = static_cast<size_t>(film.width) * film.height;
     for (std::vector<Vec3f>* v :
          {&film.direct, &film.sun, &film.albedo, &film.normal, &film.irradiance, &wholeAlbedo}) {
+      work(kWorkBetweenLooks + 1);
       v->assign(pixels, {});
     }
     for (std::vector<float>* v : {&film.distance, &film.variance, &weight, &wholeWeight}) {
+      work(kWorkBetweenLooks + 1);
       v->assign(pixels, 0);
     }
   }
@@ -247,13 +250,16 @@ struct TileTask {
   const PixelFilter& filter;
   FilmSums& sums;
 
-  /// The pixels of a tile in squares of 2 x 2, whose rays run side by side.
-  uint64_t run(const Tile& tile) const {
+  /// The pixels of a tile in squares of 2 x 2, whose rays run side by side. `goesOn` is told how
+  /// many are done, and ends it.
+  template <class GoesOn>
+  uint64_t run(const Tile& tile, GoesOn&& goesOn) const {
     uint64_t rays = 0;
     for (uint32_t y = tile.y0; y < tile.y1; y += 2) {
       for (uint32_t x = tile.x0; x < tile.x1; x += 2) {
         rays += traceSquare(x, y, std::min(x + 2, tile.x1), std::min(y + 2, tile.y1));
       }
+      if (!goesOn((tile.x1 - tile.x0) * std::min(2u, tile.y1 - y))) break;
     }
     return rays;
   }
@@ -374,11 +380,17 @@ bool tracePicture(const Stage& stage, const Camera& camera, const Lens& lens,
   const TileTask task{stage, camera, lens, options, filter, sums};
   const uint32_t across = (options.width + kTile - 1) / kTile;
   const uint32_t down = (options.height + kTile - 1) / kTile;
-  const size_t tiles = static_cast<size_t>(across) * down;
+  const double pixels = static_cast<double>(options.width) * options.height;
   std::atomic<uint64_t> allRays = 0;
   std::atomic<bool> ended = false;
   std::mutex reporting;
-  size_t done = 0;
+  uint64_t done = 0;
+  const auto goesOn = [&](uint32_t more) {
+    const std::lock_guard lock(reporting);
+    done += more;
+    if (options.progress && !options.progress(static_cast<double>(done) / pixels)) ended = true;
+    return !ended;
+  };
   // Tiles add to pixels beside them. So every other one of every other row is traced, then those
   // between: no two of a round touch the same pixel, and its sums come in the same order always.
   for (uint32_t round = 0; round < 4; ++round) {
@@ -391,13 +403,7 @@ bool tracePicture(const Stage& stage, const Camera& camera, const Lens& lens,
       t.y0 = (static_cast<uint32_t>(tile / columns) * 2 + fromY) * kTile;
       t.x1 = std::min(t.x0 + kTile, options.width);
       t.y1 = std::min(t.y0 + kTile, options.height);
-      allRays += task.run(t);
-      const std::lock_guard lock(reporting);
-      ++done;
-      if (options.progress &&
-          !options.progress(static_cast<double>(done) / static_cast<double>(tiles))) {
-        ended = true;
-      }
+      allRays += task.run(t, goesOn);
     });
   }
   sums.finish();

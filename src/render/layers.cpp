@@ -3,7 +3,7 @@
 
 #include "render/layers.h"
 
-#include "base/parallel.h"
+#include "base/parallel_work.h"
 #include "render/viewpoint.h"
 
 namespace gable::rt {
@@ -109,7 +109,8 @@ RawLayers traceLayers(const Stage& stage, const Scene& scene, const Camera& came
   }
   constexpr uint32_t kMost = Tracer::kMostTogether;
   const double width = options.width, height = options.height;
-  parallelFor(options.height, options.threads, [&](size_t y, unsigned) {
+  parallelWork(options.height, options.threads, [&](size_t y, unsigned) {
+    work(kWorkBetweenLooks);
     for (uint32_t x = 0; x < options.width; x += kMost) {
       const uint32_t count = std::min(kMost, options.width - x);
       Ray rays[kMost];

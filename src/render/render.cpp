@@ -10,11 +10,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
+#include "base/work.h"
 #include "math/trig.h"
-
 #include "render/denoise.h"
 #include "render/drawing.h"
 #include "render/film.h"
@@ -353,7 +354,18 @@ struct Renderer::Impl {
     rt::Smoothing smoothing =
         o.lighting == PictureLighting::Direct ? rt::Smoothing::Sky : rt::Smoothing::Paths;
     if (!o.denoise || picture.cancelled) smoothing = rt::Smoothing::None;
-    const std::vector<rt::Vec3f> pixels = rt::resolve(film, smoothing, o.threads);
+    std::vector<rt::Vec3f> pixels;
+    const Status smoothed = guarded([&] {
+      pixels = rt::resolve(film, smoothing, o.threads);
+      return Status();
+    });
+    // Who has stopped the smoothing is given the picture without it, unless they want none.
+    if (!smoothed.ok()) {
+      if (std::string_view(smoothed.code()) != kWorkStopped) throw Unwinding(smoothed);
+      if (o.progress) o.progress(1);
+      picture.cancelled = true;
+      pixels = rt::resolve(film, rt::Smoothing::None, o.threads);
+    }
     const bool adapts = o.adaptExposure && !o.uniformSky && !stage.paper && !picture.cancelled;
     develop(pixels, stage.light, adapts, o.exposureStops, picture.image);
     picture.stats.seconds.denoise = watch.lap();
@@ -377,6 +389,7 @@ Picture Renderer::render(const RenderOptions& options) const {
   if (options.width == 0 || options.height == 0) return picture;
 
   const Impl& impl = *impl_;
+  work(kWorkBetweenLooks + 1);
   Stopwatch watch;
   picture.stats.seconds.triangles = impl.trianglesSeconds;
   picture.stats.seconds.tree = impl.treeSeconds;

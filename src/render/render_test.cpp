@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 
+#include "base/work.h"
 #include "material/library.h"
 #include "render/test_scenes.h"
 #include "render/tracer.h"
@@ -483,6 +484,46 @@ TEST(Render, progressRisesAndCanEndThePicture) {
   const Picture ended = render(scene, o);
   EXPECT_TRUE(ended.cancelled);
   expectClean(ended);
+}
+
+/// Says stop at the look of a number.
+class StopAt final : public WorkMeter {
+ public:
+  explicit StopAt(int look) : left_(look) {}
+  bool look(uint64_t, uint64_t) override { return --left_ >= 0; }
+  int left() const { return left_; }
+
+ private:
+  int left_;
+};
+
+TEST(Render, aMeterStopsEachPartOfAPicture) {
+  const Scene scene = streetScene();
+  const auto drawn = [&](StopAt& meter) {
+    const WorkScope scope(meter);
+    return guarded([&] {
+             RenderOptions o = smallOptions(96, 54, 1);
+             o.threads = 1;
+             o.progress = [&](double) {
+               if (meter.look(0, 0)) return true;
+               throw Unwinding(Status::failure(kWorkStopped, {}));
+             };
+             render(scene, o);
+             return Status();
+           })
+        .ok();
+  };
+  constexpr int kMany = 1 << 20;
+  StopAt never(kMany);
+  EXPECT_TRUE(drawn(never));
+  const int looks = kMany - never.left();
+  EXPECT_GT(looks, 50);
+  for (const int at : {0, 1, 2, looks / 4, looks / 2, looks - 1}) {
+    StopAt meter(at);
+    EXPECT_FALSE(drawn(meter)) << at << " of " << looks;
+    // Nothing goes on behind a stop.
+    EXPECT_GE(meter.left(), -2) << at << " of " << looks;
+  }
 }
 
 TEST(Render, smoothingBringsFewSamplesNearerToMany) {

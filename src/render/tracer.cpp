@@ -14,6 +14,8 @@
 #include <limits>
 #include <vector>
 
+#include "base/work.h"
+
 namespace gable::rt {
 
 namespace {
@@ -202,9 +204,15 @@ struct Tracer::Impl {
   std::vector<RTCScene> scenes;
   std::vector<ClearGeometry> clears;
 
-  explicit Impl(const World& w) : world(w) {
-    device = rtcNewDevice("threads=1,set_affinity=0");
-    clears.resize(world.parts.size());
+  /// Of the thread that builds.
+  WorkMeter* const meter = detail::workState.meter;
+  bool stopped = false;
+
+  // What the build has made until it is left is released by the destructor.
+  explicit Impl(const World& w) : Impl(w, rtcNewDevice("threads=1,set_affinity=0")) { build(); }
+  Impl(const World& w, RTCDevice d) : world(w), device(d), clears(w.parts.size()) {}
+
+  void build() {
     for (size_t p = 0; p < world.parts.size(); ++p) {
       RTCScene scene = rtcNewScene(device);
       rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
@@ -214,10 +222,22 @@ struct Tracer::Impl {
       clears[p] = {&world, &world.parts[p].clear};
       addSet(scene, world.parts[p].clear, kClear, &clears[p]);
       scenes.push_back(scene);
-      if (p != 0) rtcCommitScene(scene);
+      if (p != 0) commit(scene);
     }
     for (size_t i = 0; i < world.placements.size(); ++i) addPlacement(i);
-    rtcCommitScene(scenes[0]);
+    commit(scenes[0]);
+  }
+
+  // No exception may pass through Embree.
+  void commit(RTCScene scene) {
+    const auto goesOn = [](void* impl, double) {
+      auto& self = *static_cast<Impl*>(impl);
+      self.stopped = self.stopped || !self.meter->lookAside(0);
+      return !self.stopped;
+    };
+    if (meter) rtcSetSceneProgressMonitorFunction(scene, goesOn, this);
+    rtcCommitScene(scene);
+    if (stopped) throw Unwinding(Status::failure(kWorkStopped, {}));
   }
 
   ~Impl() {
@@ -226,6 +246,7 @@ struct Tracer::Impl {
   }
 
   void addSet(RTCScene scene, const TriangleSet& set, unsigned id, ClearGeometry* clear) {
+    work();
     if (set.triangles.empty()) return;
     RTCGeometry geometry = makeGeometry(device, set);
     if (clear) {
@@ -238,6 +259,7 @@ struct Tracer::Impl {
   }
 
   void addPlacement(size_t i) {
+    work();
     const Placement& p = world.placements[i];
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(geometry, scenes[p.part]);

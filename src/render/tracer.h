@@ -34,7 +34,8 @@ struct Hit {
 
 class Tracer {
  public:
-  /// Keeps a reference to the world and shares its vertices. O(n log n).
+  /// Keeps a reference to the world and shares its vertices. O(n log n). The meter of the thread
+  /// can stop it.
   explicit Tracer(const World& world);
   ~Tracer();
   Tracer(const Tracer&) = delete;

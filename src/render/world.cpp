@@ -12,6 +12,7 @@
 #include <map>
 #include <optional>
 
+#include "base/dispose.h"
 #include "base/work.h"
 #include "math/trig.h"
 #include "render/triangles.h"
@@ -45,6 +46,7 @@ std::vector<bool> choosePlaced(const Scene& scene, const std::vector<MeshTriangl
   for (const Root& root : scene.roots) uses[root.instance.prototype] += 1;
   for (size_t p = n; p-- > 0;) {
     const Prototype& prototype = scene.prototypes[p];
+    work(1 + prototype.instanceCount);
     for (uint32_t i = 0; i < prototype.instanceCount; ++i) {
       uses[scene.instances[prototype.firstInstance + i].prototype] += uses[p];
     }
@@ -52,6 +54,7 @@ std::vector<bool> choosePlaced(const Scene& scene, const std::vector<MeshTriangl
   std::vector<bool> placed(n, false);
   for (size_t p = 0; p < n; ++p) {
     const Prototype& prototype = scene.prototypes[p];
+    work(1 + prototype.leafCount + prototype.instanceCount);
     double own = 0;
     for (uint32_t i = 0; i < prototype.leafCount; ++i) {
       own += static_cast<double>(meshes[scene.leaves[prototype.firstLeaf + i].mesh].corners.size());
@@ -104,11 +107,18 @@ class Builder {
     std::vector<bool> used(scene.meshes.size(), false);
     for (const Leaf& leaf : scene.leaves) used[leaf.mesh] = true;
     for (size_t m = 0; m < scene.meshes.size(); ++m) {
+      work(used[m] ? 1 + scene.meshes[m]->corners.size() : 1);
       meshes_.push_back(used[m] ? triangulated(*scene.meshes[m]) : MeshTriangles{});
     }
     placed_ = choosePlaced(scene, meshes_);
     partOf_.assign(scene.prototypes.size(), kNone);
   }
+
+  // Small blocks, several a mesh: neither a picture nor who has stopped it waits until they are
+  // free.
+  ~Builder() { disposeLater(std::move(meshes_)); }
+  Builder(const Builder&) = delete;
+  Builder& operator=(const Builder&) = delete;
 
   void build() {
     world_.parts.emplace_back();
@@ -313,6 +323,7 @@ class Builder {
   void finish() {
     // Whoever reads four floats at the last position stays inside the buffer.
     for (Part& part : world_.parts) {
+      work(1 + part.solid.positions.size());
       part.footArea =
           footArea(part.solid.triangles.empty() ? part.clear.positions : part.solid.positions);
       part.solid.positions.emplace_back();
@@ -328,6 +339,7 @@ class Builder {
     double area = world_.parts[0].wallArea, c4 = world_.parts[0].wallCos,
            s4 = world_.parts[0].wallSin;
     for (const Placement& placement : world_.placements) {
+      work();
       const Part& part = world_.parts[placement.part];
       const Box3 box = placedBox(part.bounds, placement);
       bounds.include(box);
@@ -367,7 +379,10 @@ class Builder {
   /// the lowest point: then the scene has terrain, and its lowest point counts.
   double foot() {
     if (feet_.empty()) return world_.bounds.min.y;
-    std::sort(feet_.begin(), feet_.end());
+    std::sort(feet_.begin(), feet_.end(), [](const auto& a, const auto& b) {
+      work();
+      return a < b;
+    });
     double total = 0, sum = 0;
     for (const auto& [y, area] : feet_) total += area;
     for (const auto& [y, area] : feet_) {
@@ -461,11 +476,13 @@ std::vector<Vec3f> framingPoints(const World& world, const Cut* cut, size_t limi
   const size_t each =
       world.placements.empty() ? 0 : std::max<size_t>(8, limit / world.placements.size());
   for (const Placement& p : world.placements) {
+    work(1 + each);
     const Part& part = world.parts[p.part];
     addFraming(part.solid.triangles.empty() ? part.clear : part.solid, &p, cut, each, points);
   }
   std::vector<Vec3f> within;
   for (const Vec3f& p : points) {
+    work();
     if (!world.subject.empty() && isWithinPlan(world.subject, p)) within.push_back(p);
   }
   // A camera needs something to frame.

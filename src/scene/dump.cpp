@@ -7,6 +7,8 @@
 
 #include <cstdio>
 
+#include "base/work.h"
+
 namespace gable {
 
 namespace {
@@ -46,6 +48,7 @@ void dumpLeaf(const Scene& scene, const Leaf& leaf, const Frame& world, std::str
   }
   out += '\n';
   const Mesh placed = transformed(unit, leaf.scale, world);
+  work(3 * placed.corners.size());
   for (size_t face = 0; face < placed.faceCount(); ++face) dumpFace(placed, face, out);
 }
 

@@ -11,7 +11,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "base/parallel.h"
+#include "base/parallel_work.h"
 #include "scene/flatten.h"
 
 namespace gable {
@@ -46,6 +46,7 @@ struct MeshState {
 };
 
 MeshState stateOf(const Mesh& m) {
+  work(1 + m.positions.size() + m.normals.size());
   MeshState s;
   for (const Vec3& p : m.positions) {
     s.sound = s.sound && fits(p);
@@ -103,9 +104,12 @@ uint64_t brokenNumbers(const Material& m) {
 class Mender {
  public:
   Mender(const Scene& scene, unsigned jobs) : scene_(scene), meshes_(scene.meshes.size()) {
-    parallelFor(
-        meshes_.size(), jobs, [&](size_t m, unsigned) { meshes_[m] = stateOf(*scene.meshes[m]); },
-        kMeshesATask);
+    parallelWork((meshes_.size() + kMeshesATask - 1) / kMeshesATask, jobs,
+                 [&](size_t task, unsigned) {
+                   const size_t end = std::min(meshes_.size(), (task + 1) * kMeshesATask);
+                   for (size_t m = task * kMeshesATask; m < end; ++m)
+                     meshes_[m] = stateOf(*scene.meshes[m]);
+                 });
   }
 
   // Most scenes are sound, which takes no more than a look at each thing by whoever has time.
@@ -142,7 +146,8 @@ class Mender {
   template <class T, class Test>
   static bool allOf(const std::vector<T>& all, unsigned jobs, Test&& test) {
     std::atomic<bool> holds{true};
-    parallelFor((all.size() + kThingsATask - 1) / kThingsATask, jobs, [&](size_t task, unsigned) {
+    parallelWork((all.size() + kThingsATask - 1) / kThingsATask, jobs, [&](size_t task, unsigned) {
+      work(kThingsATask);
       const auto begin = all.begin() + static_cast<ptrdiff_t>(task * kThingsATask);
       const size_t count = std::min(kThingsATask, all.size() - task * kThingsATask);
       if (!std::all_of(begin, begin + static_cast<ptrdiff_t>(count), test)) holds = false;

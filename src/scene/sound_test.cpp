@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <limits>
 
+#include "base/allowance.h"
 #include "scene/flatten.h"
 
 namespace gable {
@@ -145,6 +147,20 @@ TEST(Sound, theContentIsTheSameSharedAndFlat) {
   EXPECT_EQ(a.leavesLeftOut, b.leavesLeftOut);
   EXPECT_EQ(places(*a.scene), places(*b.scene));
   EXPECT_EQ(contentHash(*a.scene), contentHash(*b.scene));
+}
+
+TEST(Sound, hearsTheWishToStop) {
+  Scene s = houses();
+  s.leaves.resize(s.leaves.size() + (size_t{1} << 16), s.leaves[0]);
+  const std::atomic<bool> cancel{true};
+  Allowance allowance({{}, {}, &cancel});
+  const WorkScope scope(allowance);
+  const Status status = guarded([&] {
+    soundOf(s, 2);
+    return Status();
+  });
+  EXPECT_FALSE(status.ok());
+  EXPECT_TRUE(allowance.reached());
 }
 
 }  // namespace

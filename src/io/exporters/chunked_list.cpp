@@ -22,6 +22,7 @@
 #include "io/exporters/draw_batches.h"
 #include "io/exporters/draw_chunks.h"
 #include "io/exporters/draw_list.h"
+#include "io/exporters/normal_table.h"
 
 namespace gable {
 
@@ -34,6 +35,8 @@ constexpr size_t kRoom = 1 << 20;
 /// More than most leaves take: bytes that grow move house each time. What is reserved and never
 /// touched is free.
 constexpr size_t kBytesALeaf = 512;
+/// Their numbers have 16 bits, those of more have 32.
+constexpr size_t kFewVertices = 1 << 16;
 
 template <class T>
 void append(std::string& out, const std::vector<T>& data) {
@@ -117,12 +120,23 @@ class ChunkWriter {
     append(bytes_, static_cast<uint32_t>(batch.own.indices.size()));
     const size_t runsAt = bytes_.size();
     append(bytes_, 0);
+    const std::vector<uint32_t>& normals = normals_.number(batch.own.normals);
+    append(bytes_, static_cast<uint32_t>(normals_.normals().size() / 3));
     append(bytes_, batch.own.positions);
-    append(bytes_, batch.own.normals);
+    append(bytes_, normals_.normals());
     if (hasUvs) append(bytes_, batch.own.uvs);
-    append(bytes_, batch.own.indices);
     const uint32_t runs = addRuns(batch);
     std::memcpy(bytes_.data() + runsAt, &runs, sizeof runs);
+    addNumbers(normals, batch.leaves.size());
+    addNumbers(batch.own.indices, batch.leaves.size());
+  }
+
+  // Of vertices or of their normals, of which there are no more than `vertices`.
+  void addNumbers(const std::vector<uint32_t>& numbers, size_t vertices) {
+    if (vertices > kFewVertices) return append(bytes_, numbers);
+    const std::vector<uint16_t> narrow(numbers.begin(), numbers.end());
+    append(bytes_, narrow);
+    bytes_.append(bytes_.size() % 4, '\0');
   }
 
   // Leaf, colour, vertices and corners of what has one leaf and colour; how many there are.
@@ -146,6 +160,7 @@ class ChunkWriter {
 
   const DrawPlan& plan_;
   BatchBuilder builder_;
+  NormalTable normals_;
   std::vector<Piece> pieces_;
   std::vector<size_t> ends_;
   std::string bytes_;

@@ -124,7 +124,11 @@ class Page {
     // Of an instance: its matrix, colour and leaf.
     if (!batches.at(batch).geometry.empty()) return {batch, from.words(from.number() * size_t{18})};
     const uint32_t vertices = from.number(), corners = from.number(), runs = from.number();
-    return {batch, from.words(vertices * size_t{6} + corners + runs * size_t{4})};
+    const uint32_t normals = from.number();
+    // Numbers of vertices have 16 bits.
+    EXPECT_LE(vertices, 1u << 16);
+    const size_t narrow = (vertices + size_t{1}) / 2 + (corners + size_t{1}) / 2;
+    return {batch, from.words((vertices + normals) * size_t{3} + runs * size_t{4} + narrow)};
   }
 };
 

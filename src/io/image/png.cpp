@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/work.h"
 #include "io/image/palette.h"
 
 namespace gable {
@@ -123,6 +124,11 @@ struct PngWriting {
   std::optional<Palette> palette;
   std::vector<png_color> colors;
   std::vector<png_byte> alphas;
+
+  PngWriting() = default;
+  ~PngWriting() { png_destroy_write_struct(&png, &info); }
+  PngWriting(const PngWriting&) = delete;
+  PngWriting& operator=(const PngWriting&) = delete;
 };
 
 [[noreturn]] void onWriteError(png_structp png, png_const_charp message) {
@@ -202,7 +208,10 @@ bool writePixels(PngWriting& w) {
   png_set_sRGB_gAMA_and_cHRM(w.png, w.info, PNG_sRGB_INTENT_PERCEPTUAL);
   png_write_info(w.png, w.info);
   if (w.channels == 3) png_set_filler(w.png, 0, PNG_FILLER_AFTER);
-  for (uint32_t y = 0; y < w.image->height; ++y) png_write_row(w.png, w.image->at(0, y));
+  for (uint32_t y = 0; y < w.image->height; ++y) {
+    work(w.image->width);
+    png_write_row(w.png, w.image->at(0, y));
+  }
   png_write_end(w.png, w.info);
   return true;
 }
@@ -262,7 +271,6 @@ Result<std::string> encodePng(const NumberImage& image, int level) {
   // Two bytes a number at most, the high one first.
   std::vector<uint8_t> bytes(row * 2);
   const bool ok = w.info && writeNumbers(w, bytes);
-  png_destroy_write_struct(&w.png, &w.info);
   if (!ok) {
     return Error{"image-broken", std::string("the PNG picture cannot be written: ") + w.why, {}};
   }
@@ -284,7 +292,6 @@ Result<std::string> encodePng(const Image& image, int channels, int level) {
   if (!w.png) return Error{"image-broken", w.why, {}};
   w.info = png_create_info_struct(w.png);
   const bool ok = w.info && (w.palette ? writePalette(w) : writePixels(w));
-  png_destroy_write_struct(&w.png, &w.info);
   if (!ok) {
     return Error{"image-broken", std::string("the PNG picture cannot be written: ") + w.why, {}};
   }

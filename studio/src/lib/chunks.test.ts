@@ -23,6 +23,9 @@ interface Leaf {
 type Model = Leaf[][];
 
 const f32 = (...v: number[]) => [...new Uint32Array(Float32Array.from(v).buffer)];
+const u16 = (...v: number[]) => [
+  ...new Uint32Array(Uint16Array.from(v.length % 2 ? [...v, 0] : v).buffer),
+];
 const nameOf = (leaf: Leaf) => `${leaf.look} ${leaf.often}`;
 
 function pieceOf(leaves: [Leaf, number][]): number[] {
@@ -36,8 +39,11 @@ function pieceOf(leaves: [Leaf, number][]): number[] {
   const corners = leaves.flatMap((_, i) => [i * 3, i * 3 + 1, i * 3 + 2]);
   const uv = first.look === 1 ? f32(...leaves.flatMap(([l]) => Array<number>(6).fill(l.at))) : [];
   const runs = leaves.flatMap(([l, n]) => [n, l.at, 3, 3]);
-  const counts = [leaves.length * 3, leaves.length * 3, leaves.length];
-  return [...counts, ...f32(...points), ...f32(...points), ...uv, ...corners, ...runs];
+  const normals = leaves.flatMap(([l]) => Array<number>(3).fill(l.at));
+  const numbers = leaves.flatMap((_, i) => [i, i, i]);
+  const counts = [leaves.length * 3, leaves.length * 3, leaves.length, leaves.length];
+  const small = [...u16(...numbers), ...u16(...corners)];
+  return [...counts, ...f32(...points), ...f32(...normals), ...uv, ...runs, ...small];
 }
 
 /** The bytes that bring somebody from one model to another. */

@@ -60,6 +60,8 @@ interface UpdateHead {
 }
 
 const NEW = 0xffffffff;
+/** Their numbers have 16 bits, those of more have 32. */
+const FEW_VERTICES = 1 << 16;
 
 /** The list after an update of the one that is held, and what is to be held from then on. */
 export function updated(
@@ -156,6 +158,14 @@ class Reader {
     return out;
   }
 
+  /** Of vertices or of their normals; `vertices`: how many there are. */
+  private vertexNumbers(count: number, vertices: number): Uint16Array | Uint32Array {
+    if (vertices > FEW_VERTICES) return this.numbers(count);
+    const out = new Uint16Array(this.bytes, this.at, count);
+    this.at += Math.ceil(count / 2) * 4;
+    return out;
+  }
+
   private instances(geometry: Geometry): Piece {
     const count = this.number();
     const matrix = this.floats(count * 16);
@@ -165,11 +175,11 @@ class Reader {
   }
 
   private triangles(hasUv: boolean): Piece {
-    const [vertices, corners, runs] = this.numbers(3) as unknown as [number, number, number];
+    const counts = this.numbers(4) as unknown as [number, number, number, number];
+    const [vertices, corners, runs, normals] = counts;
     const position = this.floats(vertices * 3);
-    const normal = this.floats(vertices * 3);
+    const table = this.floats(normals * 3);
     const uv = hasUv ? this.floats(vertices * 2) : undefined;
-    const index = this.numbers(corners);
     const color = new Uint32Array(vertices);
     const leaf = new Float32Array(vertices);
     const run = this.numbers(runs * 4);
@@ -179,6 +189,8 @@ class Reader {
       color.fill(run[r + 1]!, at, end);
       at = end;
     }
+    const normal = spread(table, this.vertexNumbers(vertices, vertices));
+    const index = Uint32Array.from(this.vertexNumbers(corners, vertices));
     return {
       geometry: null,
       position,
@@ -191,6 +203,18 @@ class Reader {
       leaves: 0,
     };
   }
+}
+
+/** The vectors of a table by their numbers. */
+function spread(table: Float32Array, numbers: Uint16Array | Uint32Array): Float32Array {
+  const out = new Float32Array(numbers.length * 3);
+  for (let i = 0, to = 0; i < numbers.length; ++i) {
+    const from = numbers[i]! * 3;
+    out[to++] = table[from]!;
+    out[to++] = table[from + 1]!;
+    out[to++] = table[from + 2]!;
+  }
+  return out;
 }
 
 /** The pieces of each batch, with the first leaf of the chunk that each is of. */
