@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: The Gable authors
 """Makes a PNG small enough for the repository: tools/shrink_png.py FROM TO [BYTES].
 
-The picture gets a palette (median cut, Heckbert 1982): 256 colours, and where that leaves it larger than
+The picture gets a palette (median cut, Heckbert 1982, then k-means, Lloyd 1982): 256 colours, and where that leaves it larger than
 BYTES (400000), fewer colours, then fewer pixels. Reads 8-bit RGB and RGBA without interlacing, which is what
 Gable writes; alpha is dropped.
 """
@@ -14,6 +14,8 @@ from pathlib import Path
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 LIMIT = 400_000
+# Of k-means; more of them are not seen.
+ROUNDS = 4
 # Tried in this order: colours of the palette, and the share of the pixels along each side.
 STEPS = [(256, 1.0), (192, 1.0), (128, 1.0), (256, 0.75), (128, 0.75), (128, 0.5), (64, 0.5)]
 
@@ -81,8 +83,8 @@ def scaled(width, height, rows, share):
     return w, h, result
 
 
-def palette_of(counts, colors):
-    """Median cut: the box with the most pixels times extent is halved until there are enough."""
+def boxes_of(counts, colors):
+    """Median cut: the box with the most pixels times extent is halved until there are enough. Gives the boxes' means."""
     boxes = [list(counts)]
     def spread(box):
         return max((max(c[i] for c in box) - min(c[i] for c in box), i) for i in range(3))
@@ -103,12 +105,43 @@ def palette_of(counts, colors):
         boxes.append(new)
         weights[at] = (spread(boxes[at])[0] * sum(counts[c] for c in boxes[at]), at)
         weights.append((spread(new)[0] * sum(counts[c] for c in new), len(boxes) - 1))
-    means, index = [], {}
-    for number, box in enumerate(boxes):
-        total = sum(counts[c] for c in box)
-        means.append(tuple(sum(c[i] * counts[c] for c in box) // total for i in range(3)))
-        index.update((c, number) for c in box)
-    return means, index
+    return [mean_of(box, counts) for box in boxes]
+
+
+def mean_of(colors, counts):
+    total = sum(counts[c] for c in colors)
+    return tuple(sum(c[i] * counts[c] for c in colors) / total for i in range(3))
+
+
+def distance(a, b):
+    return (a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2 + (a[2] - b[2]) ** 2
+
+
+def nearest(colors, means):
+    """{colour: number of the nearest mean}. Those of one cell of eight steps share the few means that can be it."""
+    near, index = {}, {}
+    for color in colors:
+        cell = (color[0] >> 3, color[1] >> 3, color[2] >> 3)
+        if cell not in near:
+            middle = tuple(8 * v + 3.5 for v in cell)
+            far = sorted((distance(middle, m) ** 0.5, number) for number, m in enumerate(means))
+            # From the middle to a corner are 6.1 steps, so what is 12.2 steps farther than the nearest is it nowhere.
+            near[cell] = [number for d, number in far if d <= far[0][0] + 12.2]
+        candidates = near[cell]
+        index[color] = candidates[0] if len(candidates) == 1 else min(candidates, key=lambda n: distance(color, means[n]))
+    return index
+
+
+def palette_of(counts, colors):
+    """The palette, and {colour: its number in it}."""
+    means = boxes_of(counts, colors)
+    for _ in range(ROUNDS):
+        members = [[] for _ in means]
+        for color, number in nearest(counts, means).items():
+            members[number].append(color)
+        means = [mean_of(of, counts) if of else mean for of, mean in zip(members, means)]
+    palette = [tuple(round(v) for v in mean) for mean in means]
+    return palette, nearest(counts, palette)
 
 
 def encode(width, height, rows, colors):
@@ -116,13 +149,13 @@ def encode(width, height, rows, colors):
     for row in rows:
         for color in row:
             counts[color] = counts.get(color, 0) + 1
-    means, index = palette_of(counts, colors)
+    palette, index = palette_of(counts, colors)
     raw = b"".join(b"\0" + bytes(index[c] for c in row) for row in rows)
 
     def chunk(kind, body):
         return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
     return (SIGNATURE + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 3, 0, 0, 0))
-            + chunk(b"PLTE", bytes(v for mean in means for v in mean))
+            + chunk(b"PLTE", bytes(v for color in palette for v in color))
             + chunk(b"IDAT", zlib.compress(raw, 9)) + chunk(b"IEND", b""))
 
 
