@@ -18,7 +18,9 @@ constexpr Meaning kMeanings[] = {
     {kExitWrong, "the rules, the inputs or a test are wrong; of diff: the models differ"},
     {kExitUsage, "the command line is wrong"},
     {kExitFile, "a file could not be read or written"},
-    {kExitLimit, "a limit or Ctrl-C ended it; what was made until then is written"},
+    {kExitLimit,
+     "a limit or Ctrl-C ended it; what was made until then is written; of a picture only after a "
+     "limit"},
 };
 
 std::string compilerText() {

@@ -60,13 +60,13 @@ class Options(Case):
             "--max-shapes": ["-1", "nan", "1.5", "0x10"],
             "--max-steps": ["-1", "nan"], "--max-memory": ["-1", "nan"], "--max-depth": ["-1", "nan", "5000000000"],
             "--jobs": ["-1", "nan", "1.5", "0x2", "1e9"],
-            "--lot": ["nanx3", "0x10", "3", "3x", "3x4x5", "-3x4", "1,5x3", "infx3"],
+            "--lot": ["nanx3", "0x10", "0", "-3", "3x", "3x4x5", "-3x4", "1,5x3", "infx3"],
         }.items():
             for value in values:
                 told = self.run_gable("generate", "x.cga", f"{option}={value}", "-o", "a.glb", status=USAGE)
                 self.assertIn(option if option != "--set" else "'", told)
         for arguments, says in ((["--set", "h=2.5", "--set", "word=007"], "2.5\n007"), (["--set", "h=+3e0"], "3"),
-                                (["--set", "word=1,5"], "1,5"), (["--seed", "-4"], ""), (["--lot", "30X4.5"], "")):
+                                (["--set", "word=1,5"], "1,5"), (["--seed", "-4"], ""), (["--lot", "30X4.5"], ""), (["--lot", "7.5"], "")):
             self.run_gable("generate", "x.cga", *arguments, "-o", "a.glb", says=says)
 
     def testPicturesTakeWhatCanBeDrawn(self):

@@ -102,7 +102,7 @@ Other --> tag("edge7", edges) tag("hut39") X.
   DeriveSettings settings;
   settings.jobs = 1;
   const std::string expected = derive(rulesOf(text), lot, settings).drawUpdate(nullptr).bytes;
-  EXPECT_EQ(expected.substr(0, 4), "GBU1");
+  EXPECT_EQ(expected.substr(0, 4), "GBU2");
   for (const int jobs : {2, 3, 8}) {
     settings.jobs = jobs;
     const Rules rules = rulesOf(text);

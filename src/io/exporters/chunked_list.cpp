@@ -200,7 +200,7 @@ class Writing {
     for (ChunkWriter& writer : writers_) size += writer.bytes().size();
     std::string out;
     out.reserve(8 + text.size() + arrays.size() + chunks_.size() * 8 + size + kRoom);
-    out = "GBU1";
+    out = "GBU2";
     append(out, static_cast<uint32_t>(text.size()));
     out += text;
     out += arrays;

@@ -6,7 +6,7 @@
 // that is drawn of it, so that an edit sends the chunks that it changes and no others. Where chunks
 // end depends on what they hold: what is put in or taken out moves no ends but those beside it.
 //
-// The bytes: "GBU1", a 32-bit count of JSON bytes, the JSON padded with blanks to four, then the
+// The bytes: "GBU2", a 32-bit count of JSON bytes, the JSON padded with blanks to four, then the
 // arrays; docs/dev/studio-protocol.md has the fields. Applied to what the list before has left, the
 // update gives what it gives without one before, to the byte.
 #pragma once

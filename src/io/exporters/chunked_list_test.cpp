@@ -31,7 +31,7 @@ struct Head {
 };
 
 Head headOf(const std::string& bytes) {
-  EXPECT_EQ(bytes.substr(0, 4), "GBU1");
+  EXPECT_EQ(bytes.substr(0, 4), "GBU2");
   uint32_t size = 0;
   std::memcpy(&size, bytes.data() + 4, sizeof size);
   Head out{parseJson(bytes.substr(8, size)).value(), {}};

@@ -82,7 +82,7 @@ function encoded(model: Model, before: Model | null): ArrayBuffer {
   const text = json.padEnd(Math.ceil(json.length / 4) * 4);
   const words = [...geometry, ...kept, ...model.map((c) => c.length), ...bodies];
   const out = new Uint8Array(8 + text.length + words.length * 4);
-  out.set(new TextEncoder().encode('GBU1'));
+  out.set(new TextEncoder().encode('GBU2'));
   new DataView(out.buffer).setUint32(4, text.length, true);
   out.set(new TextEncoder().encode(text), 8);
   out.set(new Uint8Array(Uint32Array.from(words).buffer), 8 + text.length);

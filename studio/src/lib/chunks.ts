@@ -70,7 +70,7 @@ export function updated(
   derivation: number,
   before: Held | null,
 ): { draw: DrawList; held: Held } {
-  const { json, start } = head(bytes, from, 'GBU1');
+  const { json, start } = head(bytes, from, 'GBU2');
   const update = json as UpdateHead;
   const geometries = update.batches.map((batch): Geometry => {
     if (batch.kept !== undefined) return before!.geometries[batch.kept]!;

@@ -235,7 +235,7 @@ export function decodeDerived(
   const { json, start } = head(bytes, 0, 'GBS1');
   const derived = json as Derived;
   if (start >= bytes.byteLength) return { derived, draw: null, held: before };
-  if (markAt(bytes, start) === 'GBU1')
+  if (markAt(bytes, start) === 'GBU2')
     return { derived, ...updated(bytes, start, derived.derivation ?? 0, before) };
   return { derived, draw: decodeDrawList(bytes, start), held: null };
 }
