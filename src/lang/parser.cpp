@@ -291,6 +291,7 @@ NodeId Parser::parseAnnotation() {
       if (accept(TokenKind::Comma)) continue;
       if (missesComma || !reportMissingComma(name)) break;
       missesComma = true;
+      n.flags = kFlagBroken;
     }
     if (!is(TokenKind::RParen)) {
       n.flags = kFlagBroken;
