@@ -18,12 +18,9 @@ bool saysPart(const std::string& label) {
   return !label.empty() && cityKindOfLabel(label) != CityKind::Unknown;
 }
 
-// Rules give tags as texts in calls of the operation, or compute them.
-bool givesTags(const Program& program, const Instruction& i, const Instruction* next) {
-  if (i.code != Code::Operation && i.code != Code::OperationConstant) return false;
-  if (std::string_view(program.operations[i.a]->name) != "tag") return false;
-  if (i.code == Code::Operation || i.x == 0 || !next) return true;
-  return saysPart(std::string(program.pool->text(program.constants[next->a].id)));
+bool givesTags(const Program& program, size_t at) {
+  const std::optional<GivenTag> tag = givenTag(program, at);
+  return tag && (tag->isComputed || saysPart(tag->name));
 }
 
 // What the code of a rule says itself, and which rules it calls. The code of its blocks lies in it.
@@ -38,7 +35,7 @@ RuleContent contentOf(const Program& program, uint32_t begin, uint32_t end) {
     const Instruction& i = program.code[at];
     if (i.code == Code::CallRule || i.code == Code::RunRule) out.calls.push_back(i.a);
     out.callsAny = out.callsAny || i.code == Code::CallComputed;
-    out.says = out.says || givesTags(program, i, at + 1 < end ? &program.code[at + 1] : nullptr);
+    out.says = out.says || givesTags(program, at);
   }
   return out;
 }
@@ -68,12 +65,10 @@ CityLabels::CityLabels(const Model::Impl& model) : model_(model) {
   }
   rulesSay_ = rulesThatSay();
   leafCounts_ = prototypeLeafCounts(model.scene());
-  constexpr uint32_t kAsks = kReadsContext | kAsksForRoom;
   const std::vector<ShapeFootprint>& shapes = model.from->shapes.impl().footprints;
   together_ = std::any_of(shapes.begin(), shapes.end(), [&](const ShapeFootprint& shape) {
     const int32_t rule = ruleOf(shape);
-    return rule >= 0 &&
-           (model.rules->program.rules[static_cast<size_t>(rule)].reads.effects & kAsks) != 0;
+    return rule >= 0 && asksOthers(model.rules->program.rules[static_cast<size_t>(rule)]);
   });
   if (!together_) return;
   firstOfRoots_.push_back(0);
@@ -114,12 +109,7 @@ std::vector<bool> CityLabels::rulesThatSay() const {
 }
 
 int32_t CityLabels::ruleOf(const ShapeFootprint& shape) const {
-  for (const AttributeValue& a : shape.attributes) {
-    if (a.name != kStartRuleAttribute || a.values.size() != 1) continue;
-    const int32_t named = model_.rules->program.findRule(a.values[0].text);
-    if (named >= 0) return named;
-  }
-  return model_.startRule;
+  return startRuleOf(shape.attributes, model_.rules->program, model_.startRule);
 }
 
 bool CityLabels::says(const ShapeFootprint& shape) const {

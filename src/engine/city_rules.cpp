@@ -36,7 +36,7 @@ std::map<std::string, size_t> missingRules(const Shapes::Impl& shapes, const Pro
   for (const ShapeFootprint& f : shapes.footprints) {
     work();
     for (const AttributeValue& a : f.attributes) {
-      if (a.name == kStartRuleAttribute && a.values.size() == 1) ++asked[a.values[0].text];
+      if (namesStartRule(a)) ++asked[a.values[0].text];
     }
   }
   std::erase_if(asked, [&](const auto& r) { return program.findRule(r.first) >= 0; });
@@ -98,8 +98,7 @@ Properties propertiesOf(const Shapes::Impl& shapes) {
     work(f.attributes.size());
     const bool isBuilding =
         std::any_of(f.attributes.begin(), f.attributes.end(), [](const AttributeValue& a) {
-          return a.name == kStartRuleAttribute && a.values.size() == 1 &&
-                 a.values[0].text == "Building";
+          return namesStartRule(a) && a.values[0].text == "Building";
         });
     if (isBuilding) ++buildings;
     for (const AttributeValue& a : f.attributes) {

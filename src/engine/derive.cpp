@@ -54,7 +54,7 @@ std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, const Rules:
     s.groups = f.groups;
     s.index = f.index;
     for (const AttributeValue& a : f.attributes) {
-      if (a.name == kStartRuleAttribute && a.values.size() == 1) {
+      if (namesStartRule(a)) {
         const std::string& name = a.values[0].text;
         const auto [rule, fresh] = rules.try_emplace(name, false);
         if (fresh) rule->second = !name.empty() && program.findRule(name) >= 0;

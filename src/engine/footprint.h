@@ -12,6 +12,18 @@ namespace gable {
 
 /// The attribute of a shape that names the rule it begins with, where the rules have it.
 inline constexpr const char* kStartRuleAttribute = "startRule";
+inline bool namesStartRule(const AttributeValue& a) {
+  return a.name == kStartRuleAttribute && a.values.size() == 1;
+}
+/// The rule that a shape with these attributes begins with: the one that they name where the
+/// program has it, else `usual`. Below 0 for none.
+int32_t startRuleOf(const std::vector<AttributeValue>& attributes, const Program& program,
+                    int32_t usual);
+
+/// Whether a rule asks about other shapes, which have to be derived with its own then.
+inline bool asksOthers(const RuleCode& r) {
+  return (r.reads.effects & (kReadsContext | kAsksForRoom)) != 0;
+}
 
 /// Of files of shapes, in bytes.
 constexpr uint64_t kLargestShapeFile = uint64_t{2} << 30;

@@ -35,14 +35,9 @@ void addReports(const Model::Impl& model, size_t root, std::vector<AttributeValu
 // The attributes that the rules of a shape may read, sorted.
 const std::vector<uint32_t>* readOf(const Model::Impl& model, size_t shape) {
   const Program& program = model.rules->program;
-  int32_t rule = model.startRule;
-  if (shape < model.shapeAttributes.size()) {
-    for (const AttributeValue& a : model.shapeAttributes[shape]) {
-      if (a.name != kStartRuleAttribute || a.values.size() != 1) continue;
-      const int32_t named = program.findRule(a.values[0].text);
-      if (named >= 0) rule = named;
-    }
-  }
+  const int32_t rule = shape < model.shapeAttributes.size()
+                           ? startRuleOf(model.shapeAttributes[shape], program, model.startRule)
+                           : model.startRule;
   if (rule < 0 || static_cast<size_t>(rule) >= program.rules.size()) return nullptr;
   return &program.rules[static_cast<size_t>(rule)].reads.attributes;
 }
@@ -59,6 +54,17 @@ void addAttributes(const Model::Impl& model, size_t shape, std::vector<Attribute
 }
 
 }  // namespace
+
+int32_t startRuleOf(const std::vector<AttributeValue>& attributes, const Program& program,
+                    int32_t usual) {
+  int32_t rule = usual;
+  for (const AttributeValue& a : attributes) {
+    if (!namesStartRule(a)) continue;
+    const int32_t named = program.findRule(a.values[0].text);
+    if (named >= 0) rule = named;
+  }
+  return rule;
+}
 
 std::vector<AttributeValue> knownOfRoot(const Model::Impl& model, size_t root) {
   std::vector<AttributeValue> out;

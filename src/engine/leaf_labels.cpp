@@ -23,24 +23,35 @@ std::vector<std::string> labelsOf(const Rules& rules) {
   return out;
 }
 
+std::optional<GivenTag> givenTag(const Program& program, size_t at) {
+  const Instruction& i = program.code[at];
+  const bool isConstant = i.code == Code::OperationConstant;
+  if (!isConstant && i.code != Code::Operation) return std::nullopt;
+  if (std::string_view(program.operations[i.a]->name) != "tag") return std::nullopt;
+  GivenTag tag{!isConstant, {}};
+  if (isConstant && i.x != 0 && at + 1 < program.code.size()) {
+    tag.name = program.pool->text(program.constants[program.code[at + 1].a].id);
+    // As the operation takes it.
+    std::erase_if(tag.name, [](char c) { return c == '?' || c == '*'; });
+  }
+  return tag;
+}
+
 std::set<std::string> tagsNamedBy(const Program& program) {
   std::set<std::string> names;
-  for (size_t at = 0; at + 1 < program.code.size(); ++at) {
-    const Instruction& i = program.code[at];
-    if (i.code != Code::OperationConstant || i.x == 0) continue;
-    if (std::string_view(program.operations[i.a]->name) != "tag") continue;
-    std::string name(program.pool->text(program.constants[program.code[at + 1].a].id));
-    // As the operation takes it.
-    std::erase_if(name, [](char c) { return c == '?' || c == '*'; });
-    if (!name.empty()) names.insert(std::move(name));
+  for (size_t at = 0; at < program.code.size(); ++at) {
+    std::optional<GivenTag> tag = givenTag(program, at);
+    if (tag && !tag->name.empty()) names.insert(std::move(tag->name));
   }
   return names;
 }
 
 bool computesTags(const Program& program) {
-  return std::any_of(program.code.begin(), program.code.end(), [&](const Instruction& i) {
-    return i.code == Code::Operation && std::string_view(program.operations[i.a]->name) == "tag";
-  });
+  for (size_t at = 0; at < program.code.size(); ++at) {
+    const std::optional<GivenTag> tag = givenTag(program, at);
+    if (tag && tag->isComputed) return true;
+  }
+  return false;
 }
 
 namespace {

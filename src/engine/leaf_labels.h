@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -17,6 +18,14 @@ namespace gable {
 /// By rule, as Rules::rules() has them: its @Label, or nothing.
 std::vector<std::string> labelsOf(const Rules& rules);
 
+/// The tag that a call of the operation gives.
+struct GivenTag {
+  bool isComputed = false;
+  /// As the operation takes it; empty where it is computed.
+  std::string name;
+};
+/// Of an instruction of the program; nothing where it gives no tag.
+std::optional<GivenTag> givenTag(const Program& program, size_t at);
 /// What the rules name where they give tags: texts that stand in the call itself.
 std::set<std::string> tagsNamedBy(const Program& program);
 /// Rules may give tags that they compute.

@@ -83,13 +83,6 @@ TileFeature featureOf(const ShapeFootprint& f) {
   return out;
 }
 
-// Whether a rule asks about other shapes, which a batch does not have.
-bool asksOthers(const Program& program) {
-  return std::any_of(program.rules.begin(), program.rules.end(), [](const RuleCode& r) {
-    return (r.reads.effects & (kReadsContext | kAsksForRoom)) != 0;
-  });
-}
-
 }  // namespace
 
 Vec2 middleOf(const ShapeFootprint& f) {
@@ -190,7 +183,11 @@ TileTreeOptions tileOptions(const Rules& rules, const TileSettings& settings,
   return options;
 }
 
-size_t unitShapes(const Rules& rules) { return asksOthers(rules.impl().program) ? 0 : kUnitShapes; }
+size_t unitShapes(const Rules& rules) {
+  // A batch does not have the others.
+  const std::vector<RuleCode>& all = rules.impl().program.rules;
+  return std::any_of(all.begin(), all.end(), asksOthers) ? 0 : kUnitShapes;
+}
 
 void warnTogether(DiagnosticList& diagnostics) {
   diagnostics.push_back(
