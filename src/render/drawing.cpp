@@ -8,11 +8,9 @@
 
 #include "render/drawing.h"
 
-#include <atomic>
-#include <mutex>
-
 #include "base/parallel.h"
 #include "render/layers.h"
+#include "render/reporting.h"
 #include "render/sampler.h"
 #include "render/tone.h"
 #include "render/viewpoint.h"
@@ -67,9 +65,8 @@ class Drawing {
     pixel_ = static_cast<float>(2 * camera.halfWidth / options.width);
   }
 
-  /// `goesOn` is asked row by row; where it says no the band stays black.
-  template <class GoesOn>
-  void band(uint32_t y0, uint32_t y1, LinearImage& image, GoesOn&& goesOn) const {
+  /// `reporting` is asked row by row; where it says no the band stays black.
+  void band(uint32_t y0, uint32_t y1, LinearImage& image, Reporting& reporting) const {
     const int columns = static_cast<int>(options_.width) * kFine + 2 * kMargin;
     const int rows = static_cast<int>(y1 - y0) * kFine + 2 * kMargin;
     std::vector<Spot> spots(static_cast<size_t>(columns) * static_cast<size_t>(rows));
@@ -81,7 +78,7 @@ class Drawing {
         at(x, y).seen = look((x - kMargin + 0.5) / kFine,
                              static_cast<double>(y0) + (y - kMargin + 0.5) / kFine);
       }
-      if (!goesOn(0)) return;
+      if (!reporting.add(0)) return;
     }
     for (int y = 0; y + 1 < rows; ++y) {
       for (int x = 0; x + 1 < columns; ++x) {
@@ -238,23 +235,14 @@ bool drawLines(const Stage& stage, const Scene& scene, const Camera& camera,
   image.rgb.assign(static_cast<size_t>(options.width) * options.height * 3, 0);
   const Drawing drawing(stage, scene, camera, options);
   const size_t bands = (options.height + kBand - 1) / kBand;
-  std::atomic<bool> ended = false;
-  std::mutex reporting;
-  size_t done = 0;
-  const auto goesOn = [&](size_t more) {
-    const std::lock_guard lock(reporting);
-    done += more;
-    const double share = static_cast<double>(done) / static_cast<double>(bands);
-    if (options.progress && !options.progress(share)) ended = true;
-    return !ended;
-  };
+  Reporting reporting(options, static_cast<double>(bands));
   parallelFor(bands, options.threads, [&](size_t band, unsigned) {
-    if (ended.load(std::memory_order_relaxed)) return;
+    if (reporting.ended()) return;
     const uint32_t y0 = static_cast<uint32_t>(band) * kBand;
-    drawing.band(y0, std::min(y0 + kBand, options.height), image, goesOn);
-    goesOn(1);
+    drawing.band(y0, std::min(y0 + kBand, options.height), image, reporting);
+    reporting.add(1);
   });
-  return !ended;
+  return !reporting.ended();
 }
 
 }  // namespace gable::rt

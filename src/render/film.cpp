@@ -10,13 +10,13 @@
 
 #include <array>
 #include <atomic>
-#include <mutex>
 #include <span>
 
 #include "base/parallel.h"
 #include "base/work.h"
 #include "math/trig.h"
 #include "render/integrator.h"
+#include "render/reporting.h"
 #include "render/sampler.h"
 #include "render/viewpoint.h"
 
@@ -250,16 +250,15 @@ struct TileTask {
   const PixelFilter& filter;
   FilmSums& sums;
 
-  /// The pixels of a tile in squares of 2 x 2, whose rays run side by side. `goesOn` is told how
+  /// The pixels of a tile in squares of 2 x 2, whose rays run side by side. `pixels` is told how
   /// many are done, and ends it.
-  template <class GoesOn>
-  uint64_t run(const Tile& tile, GoesOn&& goesOn) const {
+  uint64_t run(const Tile& tile, Reporting& pixels) const {
     uint64_t rays = 0;
     for (uint32_t y = tile.y0; y < tile.y1; y += 2) {
       for (uint32_t x = tile.x0; x < tile.x1; x += 2) {
         rays += traceSquare(x, y, std::min(x + 2, tile.x1), std::min(y + 2, tile.y1));
       }
-      if (!goesOn((tile.x1 - tile.x0) * std::min(2u, tile.y1 - y))) break;
+      if (!pixels.add((tile.x1 - tile.x0) * std::min(2u, tile.y1 - y))) break;
     }
     return rays;
   }
@@ -380,35 +379,26 @@ bool tracePicture(const Stage& stage, const Camera& camera, const Lens& lens,
   const TileTask task{stage, camera, lens, options, filter, sums};
   const uint32_t across = (options.width + kTile - 1) / kTile;
   const uint32_t down = (options.height + kTile - 1) / kTile;
-  const double pixels = static_cast<double>(options.width) * options.height;
   std::atomic<uint64_t> allRays = 0;
-  std::atomic<bool> ended = false;
-  std::mutex reporting;
-  uint64_t done = 0;
-  const auto goesOn = [&](uint32_t more) {
-    const std::lock_guard lock(reporting);
-    done += more;
-    if (options.progress && !options.progress(static_cast<double>(done) / pixels)) ended = true;
-    return !ended;
-  };
+  Reporting pixels(options, static_cast<double>(options.width) * options.height);
   // Tiles add to pixels beside them. So every other one of every other row is traced, then those
   // between: no two of a round touch the same pixel, and its sums come in the same order always.
   for (uint32_t round = 0; round < 4; ++round) {
     const uint32_t fromX = round & 1, fromY = round >> 1;
     const uint32_t columns = (across + 1 - fromX) / 2, rows = (down + 1 - fromY) / 2;
     parallelFor(static_cast<size_t>(columns) * rows, options.threads, [&](size_t tile, unsigned) {
-      if (ended.load(std::memory_order_relaxed)) return;
+      if (pixels.ended()) return;
       Tile t;
       t.x0 = (static_cast<uint32_t>(tile % columns) * 2 + fromX) * kTile;
       t.y0 = (static_cast<uint32_t>(tile / columns) * 2 + fromY) * kTile;
       t.x1 = std::min(t.x0 + kTile, options.width);
       t.y1 = std::min(t.y0 + kTile, options.height);
-      allRays += task.run(t, goesOn);
+      allRays += task.run(t, pixels);
     });
   }
   sums.finish();
   rays += allRays;
-  return !ended;
+  return !pixels.ended();
 }
 
 }  // namespace gable::rt
