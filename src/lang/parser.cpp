@@ -285,12 +285,11 @@ NodeId Parser::parseAnnotation() {
     const Token open = current();
     advance();
     inAnnotation_ = true;
-    bool missesComma = false;
     while (!panic_ && !is(TokenKind::RParen) && !atEnd() && !declarationAt(at_, true)) {
       arguments.push_back(parseAnnotationValue());
       if (accept(TokenKind::Comma)) continue;
-      if (missesComma || !reportMissingComma(name)) break;
-      missesComma = true;
+      // One is told.
+      if (n.flags == kFlagBroken || !reportMissingComma(name)) break;
       n.flags = kFlagBroken;
     }
     if (!is(TokenKind::RParen)) {
