@@ -138,16 +138,14 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
     const Progress progress("reading " + arguments.shapes);
     inputs.shapes = gable::Shapes::load(arguments.shapes, limits, selectionOf(arguments));
   } else {
-    double width = 20, depth = 20;
-    double sides[2] = {width, depth};
+    double sides[2] = {20, 20};
     if (!arguments.lot.empty() && !parseExtent(arguments.lot, {1e-300, kMetres.most}, sides)) {
       return wrongOption("--lot",
                          "width x depth in metres, such as 30x40, or one number for a square",
                          arguments.lot);
     }
     if (arguments.lot.empty()) tellUsualLot(arguments.rules);
-    width = sides[0], depth = sides[1];
-    inputs.shapes = gable::Shapes::lot(width, depth);
+    inputs.shapes = gable::Shapes::lot(sides[0], sides[1]);
   }
   print(inputs.shapes.diagnostics());
   if (arguments.cutNested && inputs.shapes.size() > 0) {

@@ -188,8 +188,9 @@ int runPlan(const gable::TilePlan& plan, const gable::Rules& rules, const Means&
 }
 
 /// Many bytes are told, with what would make them fewer.
-void tellBytes(const gable::TileResult& result, bool compressed) {
+void tellTiles(const std::string& folder, const gable::TileResult& result, bool compressed) {
   constexpr uint64_t kMany = 20'000'000;
+  answer().wrote(folder);
   if (compressed || result.bytes < kMany) return;
   note(std::to_string(result.bytes / 1'000'000) +
        " MB of tiles; --compress writes about a sixth of that");
@@ -211,8 +212,7 @@ int runInPieces(const TilesArguments& arguments, const std::string& folder, doub
   gable::TileResult result;
   if (const int status = runPlan(plan, rules, means, result)) return status;
   if (const int status = page.write()) return status;
-  answer().wrote(folder);
-  tellBytes(result, arguments.tiles.compress);
+  tellTiles(folder, result, arguments.tiles.compress);
   return writeStats(arguments.stats, result, begin, planned - begin);
 }
 
@@ -273,8 +273,7 @@ int makeTiles(const DeriveArguments& derive, const TileArguments& tiles, const P
   if (tiles.onlyPlan) return tellPlan(plan, folder);
   const Means means{derive.jobs, derive.limits, begin};
   if (const int status = runPlan(plan, placed.rules, means, result)) return status;
-  answer().wrote(folder);
-  tellBytes(result, tiles.compress);
+  tellTiles(folder, result, tiles.compress);
   return page.write();
 }
 
@@ -288,8 +287,7 @@ int runTiles(const TilesArguments& arguments) {
   if (const int status = readInputs(arguments.derive, inputs)) return status;
   gable::TileResult result;
   if (const int status = writeTileFolder(arguments, inputs, folder, result)) return status;
-  answer().wrote(folder);
-  tellBytes(result, arguments.tiles.compress);
+  tellTiles(folder, result, arguments.tiles.compress);
   return writeStats(arguments.stats, result, begin, inputs.rules.parseSeconds());
 }
 
