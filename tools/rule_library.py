@@ -71,9 +71,8 @@ def meaning(annotations, comment):
     return "; ".join(parts)
 
 
-def parameters(text, always):
-    """`(a, b = 3)` as `(a, [b])`; nothing for a rule that takes none. Those from `always` on may be left out."""
-    names = [p.strip() for p in text.split(",")] if text else []
+def parameters(names, always):
+    """`a`, `b = 3` as `(a, [b])`; nothing for a rule that takes none. Those from `always` on may be left out."""
     shown = [f"[{n.split('=')[0].strip()}]" if "=" in n or i >= always else n for i, n in enumerate(names)]
     return "(" + ", ".join(shown) + ")" if names else ""
 
@@ -83,11 +82,9 @@ def forms(lines):
     found = {}
     for line in lines:
         if match := RULE.match(ANNOTATIONS.sub("", line)):
-            text = match[2] or ""
-            count = len(text.split(",")) if text else 0
-            most, few = found.get(match[1], ("", count))
-            most_count = len(most.split(",")) if most else 0
-            found[match[1]] = (text if count > most_count else most, min(few, count))
+            names = [p.strip() for p in match[2].split(",")] if match[2] else []
+            most, few = found.get(match[1], ([], len(names)))
+            found[match[1]] = (max(most, names, key=len), min(few, len(names)))
     return found
 
 
