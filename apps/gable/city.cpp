@@ -49,11 +49,9 @@ int readBox(const std::string& text, gable::CitySettings& settings) {
 
 int readCountry(std::string text, gable::CitySettings& settings) {
   for (char& c : text) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  const auto isLetter = [](char c) { return c >= 'A' && c <= 'Z'; };
   settings.country = text;
-  if (text.empty() || (text.size() == 2 && isLetter(text[0]) && isLetter(text[1])))
-    return kExitDone;
-  return wrongOption("--country", "two letters, such as MC or CZ", text);
+  if (text.empty() || gable::City::isCountry(text)) return kExitDone;
+  return wrongOption("--country", "a country's two letters, such as MC, CZ or GB", text);
 }
 
 int checkPicture(const CityArguments& arguments, gable::PictureSettings& settings) {

@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -35,7 +36,8 @@ struct CitySettings {
   /// On terrain the place is a block of soil that goes so many metres below its lowest ground, at
   /// least 2; 0: no block. Absent: as suits its size.
   std::optional<double> soil;
-  /// Two letters, such as "MC": how houses look. Empty: by addresses of the map, else by its place.
+  /// Two capitals of ISO 3166-1, such as "MC": how houses look. Empty: by addresses of the map,
+  /// else by its place.
   std::string country;
 };
 
@@ -76,6 +78,9 @@ class City {
   /// The same for a file's content in memory; `name` gives the extension.
   static City parse(const std::string& content, const std::string& name,
                     const CitySettings& settings = {}, const FileLimits& limits = {});
+
+  /// Whether CitySettings::country takes it: two capitals of ISO 3166-1, "GB" and not "UK".
+  static bool isCountry(std::string_view code);
 
   /// Each begins with the rule of its name, where the rules have it.
   Shapes shapes() const;

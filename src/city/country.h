@@ -6,6 +6,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/importers/map_features.h"
@@ -14,6 +15,9 @@ namespace gable {
 
 /// Two capitals by ISO 3166-1, such as "MC"; empty where nothing is known.
 std::string countryOf(const MapFeatures& map);
+
+/// Whether two capitals are a country's code in ISO 3166-1. "UK" is none: it is "GB".
+bool isCountryCode(std::string_view code);
 
 /// By the table alone; degrees.
 std::string countryAt(double longitude, double latitude);

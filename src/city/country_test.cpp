@@ -12,6 +12,12 @@ struct Town {
   double longitude, latitude;
 };
 
+TEST(Country, ACodeIsOneOfIso3166) {
+  for (const char* code : {"AD", "CZ", "GB", "MC", "ZW"}) EXPECT_TRUE(isCountryCode(code)) << code;
+  for (const char* code : {"", " ", "C", "XX", "UK", "mc", "D ", " M", "DA", "CZ ", "CZE", "AD AE"})
+    EXPECT_FALSE(isCountryCode(code)) << code;
+}
+
 TEST(Country, TownsLieInTheirCountries) {
   const Town towns[] = {{"Monaco", "MC", 7.424, 43.738},     {"Nice", "FR", 7.266, 43.70},
                         {"Ventimiglia", "IT", 7.607, 43.79}, {"Praha", "CZ", 14.44, 50.08},

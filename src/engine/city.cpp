@@ -15,6 +15,7 @@
 #include "base/number.h"
 #include "base/work.h"
 #include "city/buildings.h"
+#include "city/country.h"
 #include "city/plan.h"
 #include "engine/footprint.h"
 #include "engine/guard.h"
@@ -269,6 +270,8 @@ City City::parse(const std::string& content, const std::string& name, const City
   return City(guarded<Impl>(Task("planning", name, limits),
                             [&] { return parsed(content, name, settings); }));
 }
+
+bool City::isCountry(std::string_view code) { return isCountryCode(code); }
 
 Shapes City::shapes() const { return Shapes(impl_->shapes); }
 std::string City::groundGeoJson() const {

@@ -208,7 +208,8 @@ class City(Case):
         self.city("map.geojson", "--rules", "own.cga", "--country", "fr", "-o", "a.obj", says="FR")
         # The map lies at the foot of the Gulf of Guinea's meridian: no country of the table.
         self.city("map.geojson", "--rules", "own.cga", "-o", "a.obj", says="apartments")
-        self.city("map.geojson", "--country", "France", "-o", "b.glb", status=USAGE, says="--country")
+        for none in ("France", "XX", "UK"):
+            self.city("map.geojson", "--country", none, "-o", "b.glb", status=USAGE, says="--country")
 
     def testParksKnowWhetherTheMapHasPathsInThem(self):
         park = feature("Polygon", square(14, 12, 44), leisure="park")
