@@ -40,7 +40,7 @@ constexpr double kNightLevel = 0.045;
 /// An emissive 1 shows a little under white by day and far above it at night.
 constexpr float kGlowByDay = 0.9f, kGlowAtNight = 5;
 /// How much brighter than they are shown lamps are at night.
-constexpr float kLampPower = 80;
+constexpr float kLampPower = 600;
 /// How much of a moonlit sky is shown, at the horizon and above: to an eye that lamps dazzle it is
 /// dark.
 constexpr float kDarkHorizon = 0.3f, kDarkAbove = 0.13f;

@@ -108,7 +108,7 @@ constexpr float kAmbientAlbedo = 0.15f;
 constexpr double kLitRooms = 0.4;
 /// What a room gives to the street, over what a lamp as bright would give: it shows more than it
 /// shines, through curtains and towards its own walls.
-constexpr float kRoomShine = 0.04f;
+constexpr float kRoomShine = 0.008f;
 
 /// The corners of a block, or what a cut leaves of them and where it goes through the block's
 /// edges.
