@@ -3,20 +3,20 @@
 # SPDX-FileCopyrightText: The Gable authors
 """Runs checks over the text of the repository: tools/check.py [--root DIR] [NAME...]
 
-Names: layers, sizes, words, links, pictures, ops, op_names, diagnostics, libm, types; all where none is given. Exit status 1 where a
-check objects to something that tools/exceptions.txt does not name.
+Names: layers, sizes, words, links, pictures, ops, op_names, diagnostics, libm, library, types; all where none is
+given. Exit status 1 where a check objects to something that tools/exceptions.txt does not name.
 """
 import argparse
 import sys
 from pathlib import Path
 
-from checks import diagnostics, layers, libm, links, op_names, ops, pictures, sizes, types, words
+from checks import diagnostics, layers, libm, library, links, op_names, ops, pictures, sizes, types, words
 from checks.tree import Finding, Tree
 
 CHECKS = {"layers": layers.check, "sizes": sizes.check, "words": words.check,
           "links": links.check, "pictures": pictures.check, "ops": ops.check,
           "op_names": op_names.check, "diagnostics": diagnostics.check, "libm": libm.check,
-          "types": types.check}
+          "library": library.check, "types": types.check}
 
 
 def exceptions(tree):

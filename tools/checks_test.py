@@ -7,7 +7,7 @@ import unittest
 from pathlib import Path
 
 import check
-from checks import diagnostics, layers, libm, links, op_names, ops, pictures, sizes, types, words
+from checks import diagnostics, layers, libm, library, links, op_names, ops, pictures, sizes, types, words
 from checks.tree import Tree, code_of, comments_of
 
 HEAD = "// SPDX-License-Identifier: Apache-2.0\n// SPDX-FileCopyrightText: The Gable authors\n"
@@ -253,6 +253,19 @@ class LibmTest(CheckCase):
         self.write("src/geom/a.cpp", "// sin(x) of a comment\ndouble log(int line);\n"
                    "double f(double x) { return std::sqrt(x) + std::fmod(x, 2) + m.exp(x) + sinDeg(x); }\n")
         self.assertEqual(self.messages(libm), [])
+
+
+class LibraryTest(CheckCase):
+    def testHoldsTheEngineToThePlaygroundsLibrary(self):
+        self.write("apps/gable_wasm/library/cxx20.h", "namespace std {\nnamespace ranges {\ntemplate <class R>\n"
+                   "bool all_of(R&& r) {\n  return std::all_of(r);\n}\nvoid sort(R&& r) {\n}\n}  // namespace ranges\n}\n")
+        self.write("src/geom/a.cpp", "bool f() { return std::ranges::all_of(x) && std::any_of(x); std::ranges::sort(x); }\n")
+        self.assertEqual(self.messages(library), [])
+        self.write("src/geom/a.cpp", "bool f() {\n  return std::ranges::any_of(x);\n}\nauto g = std::views::all(x);\n")
+        self.assertEqual(len(self.messages(library)), 2)
+        self.write("src/geom/a.cpp", "")
+        self.write("src/geom/a_test.cpp", "bool f() { return std::ranges::any_of(x); }\n")
+        self.assertEqual(self.messages(library), [])
 
 
 class OpNamesTest(CheckCase):

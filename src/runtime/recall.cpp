@@ -48,7 +48,8 @@ RecallInput recallInput(const DeriveResult* before, const Program& program,
   if (recall.tables != &environment || !sameAttributes(recall.attributes, program)) return {};
   RecallInput out{&recall, &before->scene, instructionsOf(recall.sources, program), {}};
   const auto hasAttributes = [](const auto& notes) { return notes.attributes != 0; };
-  out.bare.reserve(static_cast<size_t>(std::ranges::count_if(recall.prototypes, hasAttributes)));
+  out.bare.reserve(static_cast<size_t>(
+      std::count_if(recall.prototypes.begin(), recall.prototypes.end(), hasAttributes)));
   for (uint32_t p = 0; p < recall.prototypes.size(); ++p) {
     const Recall::PrototypeNotes& notes = recall.prototypes[p];
     if (notes.attributes) out.bare.emplace(withoutAttributes(notes.key, notes.attributes), p);
