@@ -34,7 +34,8 @@ class Shapes {
   /// A rectangle: a corner at the origin, `width` along +x, `depth` along -z, facing up.
   static Shapes lot(double width, double depth);
   using Ring = std::vector<std::pair<double, double>>;
-  /// A polygon in plan coordinates (x east, y north), counter-clockwise, with holes.
+  /// A polygon in plan coordinates (x east, y north), counter-clockwise, with holes. A ring may
+  /// repeat its first point at its end.
   static Shapes polygon(const Ring& outer, const std::vector<Ring>& holes = {});
   /// Faces over vertices in metres (y up). `holes` names holes by lists of face numbers: the first
   /// is the face that has them, the others are its holes.

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from gable import _gable
-from gable._messages import Error, Message, messages_of, path_text, warn_of
+from gable._messages import Error, Message, messages_of, one_of, path_text, warn_of
 from gable._rules import Rules
 from gable._shapes import Shapes
 
@@ -74,8 +74,7 @@ def dataset(
     """
     words = {"placing": placing, "labels": labels, "format": format, "lighting": lighting}
     for name, word in words.items():
-        if word not in _WORDS[name]:
-            raise ValueError(f"{name} is one of {', '.join(_WORDS[name])}, not {word!r}")
+        one_of(name, word, _WORDS[name])
     for name, number in (("count", count), ("cameras", cameras)):
         if number < 1:
             raise ValueError(f"{name} is 1 or more, not {number!r}")

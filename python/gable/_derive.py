@@ -46,6 +46,7 @@ def derive(
     at_least("jobs", jobs, 1)
     at_least("seconds", seconds, 0)
     at_least("memory", memory, 0)
+    _refuse_near(rules, more)
     values = {**(attributes or {}), **more}
     return Model(
         _gable.derive(
@@ -62,6 +63,18 @@ def derive(
         len(shapes),
         _unknown(rules, shapes),
     )
+
+
+_OPTIONS = ("seed", "start_rule", "jobs", "seconds", "memory", "progress", "attributes")
+
+
+def _refuse_near(rules: Rules, more: Mapping[str, Any]) -> None:
+    """Raises TypeError for a keyword that is near to an option, where the rules have no such attribute."""
+    known = {attribute.name for attribute in rules.attributes}
+    for name in more:
+        near = difflib.get_close_matches(name, _OPTIONS, 1)
+        if near and name not in known and not difflib.get_close_matches(name, known, 1):
+            raise TypeError(f"derive has no {name!r}, and the rules have no such attribute; {near[0]!r} may be meant")
 
 
 def _unknown(rules: Rules, shapes: Shapes) -> list[Message]:

@@ -103,6 +103,12 @@ def at_least(name: str, value: Any, least: float) -> None:
         raise ValueError(f"{name} is {least} or more, not {value!r}")
 
 
+def one_of(name: str, word: str, words: Iterable[str]) -> None:
+    """Raises ValueError where a word is none of those."""
+    if word not in words:
+        raise ValueError(f"{name} is one of {', '.join(words)}, not {word!r}")
+
+
 def above_zero(name: str, value: float) -> float:
     """The number; raises ValueError where it is none above 0."""
     if not 0 < value < float("inf"):

@@ -5,19 +5,23 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypedDict
 
 from gable import _gable
-from gable._messages import Error, Message, checked, messages_of, path_text, warn_of
+from gable._messages import Error, Message, checked, messages_of, one_of, path_text, warn_of
 
 if TYPE_CHECKING:
     import numpy as np
     import pandas
     from numpy.typing import NDArray
 
-_VIEWS = ("iso", "top", "front", "street")
+_WORDS = {
+    "view": ("iso", "top", "front", "street"),
+    "style": ("photo", "clay", "blueprint", "ink", "section"),
+    "lighting": ("paths", "direct"),
+}
 _MOST_LEAVES = 1 << 40
 
 
@@ -247,17 +251,26 @@ class Model:
         sun: tuple[float, float] | None = None,
         camera: tuple[tuple[float, float, float], tuple[float, float, float]] | None = None,
         field_of_view: float | None = None,
+        style: str = "photo",
+        lighting: str = "paths",
+        progress: Callable[[int, int], None] | None = None,
     ) -> None:
         """Draws a .png from "iso", "top", "front" or "street", or from a camera (eye, target).
 
-        `sun` is its elevation above the horizon and its azimuth clockwise from north.
+        `sun` is its elevation above the horizon and its azimuth clockwise from north. `style` is
+        "photo", "clay", "blueprint", "ink" or "section"; `lighting` is by "paths" or "direct", which
+        is many times faster. `progress` is called with the thousandths that are done, and 1000.
+        Ctrl-C and what it raises end the drawing; no picture is written then.
         """
         if not path_text(path).lower().endswith(".png"):
             raise ValueError(f"a picture is a .png, not {path_text(path)!r}")
-        if view not in _VIEWS:
-            raise ValueError(f"view is one of {', '.join(_VIEWS)}, not {view!r}")
+        words = {"view": view, "style": style, "lighting": lighting}
+        for name, word in words.items():
+            one_of(name, word, _WORDS[name])
         _written(
-            self._raw.picture(path_text(path), view, width, height, samples, sun, camera, field_of_view)
+            self._raw.picture(
+                path_text(path), *words.values(), width, height, samples, sun, camera, field_of_view, progress
+            )
         )
 
     def __repr__(self) -> str:
@@ -265,6 +278,8 @@ class Model:
 
 
 def _choices(options: dict[str, str | int]) -> list[tuple[str, str]]:
+    if "for_" in options:
+        raise TypeError("the program that opens a file is given as profile, not as for_")
     return [(name.replace("_", "-"), str(value)) for name, value in options.items()]
 
 

@@ -9,6 +9,7 @@ docs/guide/python.md tells what differs.
 
 from __future__ import annotations
 
+import difflib
 import os
 import warnings
 from collections.abc import Mapping, Sequence
@@ -25,6 +26,8 @@ _EXTENSIONS = {
     "com.esri.prt.codecs.OBJEncoder": ".obj",
     "com.esri.prt.codecs.GLTFEncoder": ".glb",
 }
+# What encoders are told that is heeded here.
+_OPTIONS = ("emitReport", "emitGeometry", "triangulate", "outputPath", "baseName")
 _NO_ATTRIBUTES = ("ruleFile", "startRule", "seed", "shapeName", "outputPath")
 
 
@@ -46,6 +49,8 @@ class InitialShape:
             # The second argument is how deep folders are searched for textures, which Gable finds.
             self._shapes = gable.Shapes.load(self._path)
             return
+        if hasattr(shape, "ravel"):
+            shape = shape.ravel().tolist()
         if len(shape) % 3 != 0:
             raise ValueError(f"coordinates come in threes, and there are {len(shape)}")
         self._points = [tuple(shape[i : i + 3]) for i in range(0, len(shape), 3)]
@@ -132,6 +137,11 @@ class ModelGenerator:
         if geometryEncoderName != PY_ENCODER and geometryEncoderName not in _EXTENSIONS:
             known = ", ".join([PY_ENCODER, *_EXTENSIONS])
             raise ValueError(f"there is no encoder {geometryEncoderName!r}; the encoders are {known}")
+        for name in options:
+            if name not in _OPTIONS:
+                near = difflib.get_close_matches(name, _OPTIONS, 1)
+                meant = f"; {near[0]!r} may be meant" if near else ""
+                warnings.warn(f"the encoder option {name!r} is not heeded{meant}", stacklevel=2)
         rules = gable.Rules.load(rulePackagePath)
         models = []
         for index, shape in enumerate(self._shapes):
@@ -182,7 +192,9 @@ def _derived(rules: gable.Rules, shape: InitialShape, given: Mapping[str, Any]) 
         if name in known:
             attributes[name] = value
         elif name not in _NO_ATTRIBUTES:
-            warnings.warn(f"the rules have no attribute {name!r}", stacklevel=3)
+            near = difflib.get_close_matches(name, known, 1)
+            meant = f"; {near[0]!r} may be meant" if near else ""
+            warnings.warn(f"the rules have no attribute {name!r}{meant}", stacklevel=3)
     start = given.get("startRule")
     # PRT names styles and rules as "Default$Lot".
     start_rule = str(start).rpartition("$")[2] if start else None

@@ -3,8 +3,9 @@
 
 #include <cmath>
 
-#include "bindings.h"
+#include "gable/names.h"
 #include "gable/writing.h"
+#include "watched.h"
 
 namespace gable::python {
 
@@ -227,46 +228,45 @@ WriteSettings settingsOf(const std::string& profile, const WriteChoices& options
 
 py::tuple written(const Model& model, const std::string& path, const std::string& profile,
                   const WriteChoices& options) {
-  const WriteSettings settings = settingsOf(profile, options);
-  WriteResult result;
-  {
-    const py::gil_scoped_release released;
-    result = model.write(path, settings);
-  }
-  return resultOf(result);
+  Watched watched;
+  WriteSettings settings = settingsOf(profile, options);
+  settings.limits.cancel = &watched.cancel;
+  return resultOf(watch(watched, py::none(), [&] { return model.write(path, settings); }));
 }
 
 py::tuple encoded(const Model& model, const std::string& format, const std::string& profile,
                   const WriteChoices& options) {
-  const WriteSettings settings = settingsOf(profile, options);
-  EncodeResult result;
-  {
-    const py::gil_scoped_release released;
-    result = model.encode(format, settings);
-  }
+  Watched watched;
+  WriteSettings settings = settingsOf(profile, options);
+  settings.limits.cancel = &watched.cancel;
+  const EncodeResult result =
+      watch(watched, py::none(), [&] { return model.encode(format, settings); });
   return py::make_tuple(result.ok, messagesOf(result.diagnostics), py::bytes(result.bytes));
 }
 
-py::tuple pictured(const Model& model, const std::string& path, const std::string& view, int width,
-                   int height, int samples, std::optional<std::pair<double, double>> sun,
+// Words have been checked. Ctrl-C ends it without a picture.
+py::tuple pictured(const Model& model, const std::string& path, const std::string& view,
+                   const std::string& style, const std::string& lighting, int width, int height,
+                   int samples, std::optional<std::pair<double, double>> sun,
                    std::optional<std::pair<Triple, Triple>> camera,
-                   std::optional<double> fieldOfView) {
+                   std::optional<double> fieldOfView, const py::object& progress) {
+  Watched watched;
   PictureSettings s;
-  if (view == "top") s.view = View::Top;
-  if (view == "front") s.view = View::Front;
-  if (view == "street") s.view = View::Street;
+  s.view = viewNamed(view).value_or(s.view);
+  s.look = lookNamed(style).value_or(s.look);
+  s.lighting = lightingNamed(lighting).value_or(s.lighting);
   s.width = width;
   s.height = height;
   s.samples = samples;
   if (sun) s.sun = PictureSettings::Sun{sun->first, sun->second};
   if (camera) s.camera = PictureSettings::Camera{camera->first, camera->second};
   s.fieldOfView = fieldOfView;
-  WriteResult result;
-  {
-    const py::gil_scoped_release released;
-    result = model.picture(path, s);
-  }
-  return resultOf(result);
+  s.limits.cancel = &watched.cancel;
+  s.progress = [&](size_t done, size_t total) {
+    watched.total = total;
+    watched.done = done;
+  };
+  return resultOf(watch(watched, progress, [&] { return model.picture(path, s); }));
 }
 
 }  // namespace

@@ -319,6 +319,8 @@ Shapes Shapes::polygon(const Ring& outer, const std::vector<Ring>& holes) {
     const auto ring = [](const Ring& r) {
       gable::Ring out;
       for (const auto& [x, y] : r) out.push_back({x, y});
+      // In many formats a ring repeats its first point at the end.
+      while (out.size() > 1 && out.front() == out.back()) out.pop_back();
       return out;
     };
     Polygon p{ring(outer), {}};

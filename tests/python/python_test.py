@@ -6,6 +6,7 @@
 
 BUILD holds python/gable. The examples of docs/guide/python.md are run one after the other, too.
 """
+import datetime
 import json
 import os
 import re
@@ -103,6 +104,15 @@ class BadInput(unittest.TestCase):
             (ValueError, "depth is a number of metres above 0, not nan", lambda: gable.Shapes.lot(1, float("nan"))),
             (ValueError, "at least 3 points, not 2", lambda: gable.Shapes.polygon([(0, 0), (1, 1)])),
             (ValueError, "a picture is a .png, not 'x.xyz'", lambda: gable.derive(rules, lot).picture("x.xyz")),
+            (ValueError, "style is one of photo, clay, blueprint, ink, section, not 'oil'",
+             lambda: gable.derive(rules, lot).picture("x.png", style="oil")),
+            (TypeError, "'start_rule' may be meant", lambda: gable.derive(rules, lot, start="Lot")),
+            (TypeError, "given as profile", lambda: gable.derive(rules, lot).write("x.glb", for_="godot")),
+            (TypeError, "of_geometries() takes polygons of shapely", lambda: gable.Shapes.polygon(Square())),
+            (TypeError, "a GeoDataFrame of geopandas, not dict", lambda: gable.Shapes.of_frame({})),
+            (ValueError, "point 0 has 3; mesh()", lambda: gable.Shapes.polygon([(0, 0, 1), (1, 0, 1), (1, 1, 1)])),
+            (ValueError, "vertex 1 has 2", lambda: gable.Shapes.mesh([(0, 0, 0), (1, 1)], [])),
+            (ValueError, "2 geometries, and attributes for 1", lambda: gable.Shapes.of_geometries([Square()] * 2, [{"height": 1}])),
         ):
             with self.subTest(words), self.assertRaisesRegex(kind, re.escape(words)):
                 call()
@@ -264,6 +274,50 @@ class Shapes(unittest.TestCase):
         model = gable.derive(gable.Rules.parse(BOX), gable.Shapes.of_frame(Frame()))
         self.assertEqual(model.attributes(0)["height"], 8)
 
+    def test_what_a_frame_has_that_no_rule_can_have(self):
+        class Missing:
+            def __eq__(self, other):
+                return self
+            __ne__ = __eq__
+            __hash__ = None
+            def __bool__(self):
+                raise TypeError("boolean value of NA is ambiguous")
+        Missing.__name__ = "NAType"
+        class Column(list):
+            name = "geometry"
+            def translate(self, x, y):
+                return self
+        class Frame(list):
+            crs = None
+            geometry = Column([Square(), None, Square()])
+            columns = ["height", "built", "geometry"]
+            total_bounds = (0, 0, 30, 10)
+            def set_geometry(self, geometry):
+                return self
+            def __getitem__(self, columns):
+                return self
+            def itertuples(self, index, name):
+                return iter(self)
+        day = datetime.date(1900, 1, 1)
+        with warnings.catch_warnings(record=True) as all:
+            warnings.simplefilter("always")
+            gable._messages._shown.clear()
+            shapes = gable.Shapes.of_frame(Frame([(Missing(), day), (3, day), (np.int64(7), None)]))
+        told = [str(w.message) for w in all if w.category is gable.Warning]
+        self.assertIn("the column 'built' is left out", told[0])
+        self.assertIn("row 1 is left out: it has no geometry", told[1])
+        self.assertEqual(len(shapes), 4)
+        model = gable.derive(gable.Rules.parse(BOX), shapes)
+        self.assertEqual([model.attributes(i)["height"] == 7 for i in range(4)], [False, False, True, True])
+
+    def test_a_ring_may_repeat_its_first_point(self):
+        square, hole = [(0, 0), (12, 0), (12, 10), (0, 10)], [(2, 2), (4, 2), (4, 4)]
+        rules = gable.Rules.parse("@StartRule\nLot --> roofGable(30) X.\n")
+        closed = gable.Shapes.polygon(square + square[:1], [hole + hole[:1]])
+        self.assertEqual(closed.messages, [])
+        models = [gable.derive(rules, s) for s in (gable.Shapes.polygon(square, [hole]), closed)]
+        self.assertEqual(*[m.encode("glb") for m in models])
+
     def test_other_geometries_are_refused(self):
         with self.assertRaisesRegex(TypeError, "Point"):
             gable.Shapes.of_geometries([{"type": "Point", "coordinates": (0, 0)}])
@@ -416,7 +470,37 @@ class Derivation(unittest.TestCase):
             self.assertEqual(process.communicate(timeout=60)[0], "stopped\n")
 
 
+    def test_a_picture_ends_by_what_its_progress_raises(self):
+        class Enough(Exception):
+            pass
+        def stop(done, total):
+            raise Enough
+        model = gable.derive(self.rules, gable.Shapes.lot(9, 9))
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "a.png"
+            with self.assertRaises(Enough):
+                model.picture(path, width=800, height=600, samples=4000, progress=stop)
+            self.assertFalse(path.exists())
+            model.picture(path, width=64, height=48, style="ink")
+            ink = path.read_bytes()
+            model.picture(path, width=64, height=48, samples=2, lighting="direct")
+            self.assertNotEqual(path.read_bytes(), ink)
+
+
 class OfPyPrt(unittest.TestCase):
+    def test_names_that_are_not_heeded(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "a.cga"
+            path.write_text(BOX, encoding="utf-8")
+            square = np.array([[0, 0, 0], [0, 0, 10], [10, 0, 10], [10, 0, 0]])
+            with warnings.catch_warnings(record=True) as all:
+                warnings.simplefilter("always")
+                pyprt.ModelGenerator([pyprt.InitialShape(square)]).generate_model(
+                    [{"heigth": 3}], path, pyprt.PY_ENCODER, {"emitReports": True})
+            told = [str(w.message) for w in all]
+            self.assertTrue(any("'emitReports' is not heeded; 'emitReport'" in t for t in told), told)
+            self.assertTrue(any("'heigth'; 'height'" in t for t in told), told)
+
     def test_one_set_of_attributes_for_all(self):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "a.cga"
