@@ -72,6 +72,21 @@ std::string unknownWord(const CLI::App& app, int argc, char** argv) {
   return {};
 }
 
+// What to say of the first option that stands there more often than it may; else nothing.
+std::string repeatedOption(const CLI::App& app, int argc, char** argv) {
+  for (const CLI::Option* option : chosenApp(app).get_options()) {
+    if (option->get_expected_max() != 1) continue;
+    int times = 0;
+    std::string written;
+    for (int i = 1; i < argc; ++i) {
+      const std::string argument = argv[i], name = argument.substr(0, argument.find('='));
+      if (argument.starts_with('-') && option->check_name(name)) written = name, ++times;
+    }
+    if (times > 1) return "'" + written + "' is given twice; leave one of them out";
+  }
+  return {};
+}
+
 }  // namespace
 
 int wrongLine(const CLI::App& app, const CLI::ParseError& e, int argc, char** argv) {
@@ -83,7 +98,7 @@ int wrongLine(const CLI::App& app, const CLI::ParseError& e, int argc, char** ar
     if (std::string_view(argv[i]) == "--json") terminal().json = true;
   }
   answer().begin(chosenCommand(app));
-  for (const auto& unknown : {unknownCommand, unknownOption, unknownWord}) {
+  for (const auto& unknown : {unknownCommand, unknownOption, unknownWord, repeatedOption}) {
     const std::string mistake = unknown(app, argc, argv);
     if (!mistake.empty()) return fail(kExitUsage, mistake);
   }

@@ -36,7 +36,9 @@ namespace {
 std::shared_ptr<Model::Impl> loaded(const std::string& path) {
   auto impl = std::make_shared<Model::Impl>();
   impl->project = std::make_shared<Project>(folderOf(path).empty() ? "." : folderOf(path));
-  Result<Asset> asset = impl->project->load("/" + fileNameOf(path));
+  // The path as it was given, where there is no such file.
+  Result<Asset> asset = fileExists(path) ? impl->project->load("/" + fileNameOf(path))
+                                         : Result<Asset>(readFile(path, 0).error());
   if (!asset.ok()) {
     impl->found = false;
     impl->diagnostics.push_back(diagnosticOf(asset.error()));

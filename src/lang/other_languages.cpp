@@ -58,6 +58,7 @@ constexpr ForeignWord kWords[] = {
     {"++", Operator, {}, "values stay as they are: set(a, a + 1) gives the shape another one"},
 
     {"->", Arrow, "-->", "write '-->' behind the head of a rule, ':' behind a size or a selector"},
+    {"==>", Arrow, "-->", "write '-->' behind the head of a rule, ':' behind a size or a selector"},
     {"=>", Arrow, "-->", "write '-->' behind the head of a rule, ':' behind a size or a selector"},
 
     {"elif", Branch, "case", kFurther},
@@ -129,6 +130,7 @@ constexpr ForeignWord kWords[] = {
     {"strlen", Function, "len"},
     {"substr", Function, "substring"},
     {"uniform", Function, "rand"},
+    {"with", Function, {}, "'with' stands before the '=': f(a) with (b := a) = b + 1"},
 
     {"component", Operation, {}, "in CGA it is 'comp(f) { side : operations | top : operations }'"},
     {"delete", Operation, {}, "write NIL where nothing shall be made"},
@@ -149,6 +151,12 @@ constexpr ForeignWord kWords[] = {
     {"scale", Operation, "s"},
     {"size", Operation, "s"},
     {"translate", Operation, "t"},
+
+    {"gable", Selector, {}, "write isTagged(\"roof.side\") for the gables of a roof"},
+    {"roof", Selector, {}, "write isTagged(\"roof.top\") for the slopes of a roof"},
+    {"slope", Selector, {}, "write isTagged(\"roof.top\") for the slopes of a roof"},
+    {"wall", Selector, {}, "write 'side' for the walls of a body"},
+    {"walls", Selector, {}, "write 'side' for the walls of a body"},
 };
 
 }  // namespace

@@ -32,6 +32,8 @@ enum class ForeignUse : uint8_t {
   Function,
   /// A name in the place of an operation.
   Operation,
+  /// A name in the place of a selector.
+  Selector,
 };
 
 struct ForeignWord {

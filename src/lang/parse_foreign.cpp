@@ -153,6 +153,16 @@ void Parser::reportAssign(const Token& name, bool hasWord) {
       hasWord ? "=" : "attr " + written + " =");
 }
 
+// attr height : float = 10. Reports the type and passes it.
+void Parser::takeWrittenType(const Token& name) {
+  if (!is(TokenKind::Colon) || !isName(ahead(1)) || ahead(2).kind != TokenKind::Equal) return;
+  const Span span = {file_, current().begin, ahead(1).end};
+  error("unexpected-token", span, "types are not written: a value has its own",
+        "write 'attr " + std::string(textOf(name)) + " = value'");
+  fix(span, "");
+  at_ += 2;
+}
+
 // a := 1, a += 1 and a++ behind other operations.
 bool Parser::takeAssignment() {
   if (!isName(current())) return false;
@@ -200,8 +210,8 @@ size_t Parser::behindHead(size_t index) const {
 
 bool Parser::foreignArrowAt(size_t index) const {
   const Token& t = token(index);
-  return t.kind == TokenKind::Equal && token(index + 1).kind == TokenKind::Greater &&
-         token(index + 1).begin == t.end;
+  const bool line = t.kind == TokenKind::Equal || t.kind == TokenKind::EqualEqual;
+  return line && token(index + 1).kind == TokenKind::Greater && token(index + 1).begin == t.end;
 }
 
 // An arrow between a size or a selector and what it is for: { side => Wall }.

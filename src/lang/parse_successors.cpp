@@ -94,7 +94,13 @@ bool Parser::skipBadSuccessor() {
     skipDashComment();
     return true;
   }
-  if (!reportBadSuccessor()) unexpected("an operation, a rule or a new declaration");
+  if (!reportBadSuccessor()) {
+    unexpected("an operation, a rule or a new declaration",
+               is(TokenKind::LBrace)
+                   ? "a block stands behind its operation: split(x) { ... }; '[' and ']' keep "
+                     "operations together"
+                   : "");
+  }
   if (is(TokenKind::LBrace) && current().match != Token::kNoMatch) at_ = current().match;
   advance();
   return true;
@@ -466,11 +472,39 @@ bool Parser::parseStarHead(NodeId& head) {
   return true;
 }
 
+// split(y) { A : 3 }, a size behind its part. Reports it, and reads the size alone.
+bool Parser::takeSwappedSize(NodeId& head) {
+  const bool rule =
+      isName(current()) && text_[current().begin] >= 'A' && text_[current().begin] <= 'Z';
+  if (!rule || ahead(1).kind != TokenKind::Colon) return false;
+  const TokenKind sign = ahead(2).kind;
+  const size_t at = sign == TokenKind::Tilde || sign == TokenKind::Quote ? 3 : 2;
+  const TokenKind behind = ahead(at + 1).kind;
+  const bool ends = behind == TokenKind::Pipe || behind == TokenKind::RBrace;
+  if (ahead(at).kind != TokenKind::Number || !ends) return false;
+  const uint32_t size = ahead(2).begin, end = ahead(at).end;
+  const std::string mended =
+      std::string(text_.substr(size, end - size)) + " : " +
+      std::string(text_.substr(current().begin, current().end - current().begin));
+  const Span span = {file_, current().begin, end};
+  error("unexpected-head", span, "the size stands behind its part", "write '" + mended + "'");
+  fix(span, mended);
+  advance();
+  advance();
+  head = parseExpression();
+  return true;
+}
+
 NodeId Parser::parseItem(bool expressions) {
   if (is(TokenKind::LBrace)) return parseBlock(expressions);
   Node n = node(NodeKind::Item, current().begin);
   NodeId head = kNoNode;
   NodeId second = kNoNode;
+  if (!expressions && takeSwappedSize(head)) {
+    n.op = static_cast<uint8_t>(ItemKind::Each);
+    n.end = endOfLast();
+    return make(n, {head, second, missing()});
+  }
   const bool arrow = at_ == itemAt_;
   if (arrow || headHere()) {
     // `else :` is a word that no block has; the analysis says what to write for it.

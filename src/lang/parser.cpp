@@ -60,7 +60,8 @@ Parser::Head Parser::headAt(size_t index) const {
   size_t next = skipBrackets(index + 1);
   if (token(next).keyword == Keyword::With) next = skipBrackets(next + 1);
   if (token(next).kind == TokenKind::Arrow) return Head::Rule;
-  return token(next).kind == TokenKind::Equal ? Head::Function : Head::None;
+  const bool value = token(next).kind == TokenKind::Equal || foreignArrowAt(next);
+  return value ? Head::Function : Head::None;
 }
 
 bool Parser::declarationAt(size_t index, bool insideBlock) const {
@@ -153,6 +154,11 @@ void Parser::unexpected(const std::string& expected, std::string hint) {
                       ahead(1).begin == current().end;
   if (hint.empty() && joined) {
     hint = "names have no colon; the property 'a:b' of a map is the attribute 'a_b'";
+  }
+  const bool unit = at_ > 0 && tokens_[at_ - 1].kind == TokenKind::Number && isName(current()) &&
+                    endOfLast() == current().begin;
+  if (hint.empty() && unit) {
+    hint = "a number has no letters behind it: write " + std::string(textOf(tokens_[at_ - 1]));
   }
   error("unexpected-token", spanOf(current()),
         describe(current()) + " is unexpected here; expected " + expected, std::move(hint));
@@ -590,6 +596,7 @@ NodeId Parser::parseDefinition(NodeId annotations, Keyword keyword) {
   if (assigns) reportAssign(name, hasWord);
   if (keyword == Keyword::Attr || (assigns && !hasWord)) n.kind = NodeKind::Attr;
   if (keyword == Keyword::Const) n.kind = NodeKind::Const;
+  if (hasWord) takeWrittenType(name);
   NodeId value = kNoNode;
   const bool valueHere = is(TokenKind::Number) || is(TokenKind::String) || is(Keyword::True) ||
                          is(Keyword::False) || is(TokenKind::LBracket);

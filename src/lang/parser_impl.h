@@ -175,6 +175,7 @@ class Parser {
   bool wrongSeparatorHere() const;
   NodeId parseBareArgument(const Token& name);
   bool parseStarHead(NodeId& head);
+  bool takeSwappedSize(NodeId& head);
 
   // --- Expressions (parse_expressions.cpp) ---
   NodeId parseExpression();
@@ -220,6 +221,7 @@ class Parser {
   bool takeForeignDeclaration();
   bool assignsHere() const;
   void reportAssign(const Token& name, bool hasWord);
+  void takeWrittenType(const Token& name);
   bool takeAssignment();
   bool takeForeign();
   size_t behindHead(size_t index) const;

@@ -252,21 +252,27 @@ const LibraryMaterial* libraryMaterial(std::string_view name) {
   return at != std::end(kLibrary) && at->name == name ? &*at : nullptr;
 }
 
-std::string materialHint(std::string_view name) {
-  const std::string hint = didYouMean(name, names());
+std::string materialHint(std::string_view given) {
+  const std::string name = lowerCase(given);
+  const std::string hint =
+      libraryMaterial(name) ? "did you mean '" + name + "'?" : didYouMean(name, names());
   if (!hint.empty()) return hint;
   // "brick", or nearly: all that begin so.
   const auto kind = [](std::string_view n) { return n.substr(0, n.find('.')); };
   std::vector<std::string_view> kinds;
   for (const std::string_view n : names()) kinds.push_back(kind(n));
-  const std::string_view given = kind(name);
-  const bool known = std::find(kinds.begin(), kinds.end(), given) != kinds.end();
-  const std::string meant = known ? std::string(given) : nearestName(given, kinds);
+  const std::string_view own = kind(name);
+  const bool known = std::find(kinds.begin(), kinds.end(), own) != kinds.end();
+  const std::string meant = known ? std::string(own) : nearestName(own, kinds);
   std::string list;
   for (const std::string_view n : names()) {
     if (kind(n) == meant) list += (list.empty() ? "there are " : ", ") + std::string(n);
   }
-  return list.empty() ? "'gable asset material' lists them" : list;
+  if (!list.empty()) return list;
+  kinds.erase(std::unique(kinds.begin(), kinds.end()), kinds.end());
+  for (const std::string_view k : kinds)
+    list += (list.empty() ? "there are " : ", ") + std::string(k);
+  return list + "; 'gable asset material' lists all";
 }
 
 std::string materialPicturePath(const LibraryMaterial& m, MaterialPicture picture) {

@@ -301,6 +301,13 @@ std::string Analysis::mismatchHint(std::string_view target, NodeId node, const P
   if (list && target == "len") return "write size(array) for the number of its values";
   if (named && list) return "take one value of the list, such as " + named->name + "[0]";
   if (named && wanted != ValueType::Null) return typeRemedy(*named, wanted);
+  // A sum is a text where one of its parts is.
+  if (tree().kind(node) == NodeKind::Binary && wanted == ValueType::Float) {
+    for (const NodeId part : tree().children(node)) {
+      const AttributeInfo* const a = attributeAt(part);
+      if (a && a->type == type) return typeRemedy(*a, wanted);
+    }
+  }
   return "it is: " + docText(param);
 }
 

@@ -179,8 +179,9 @@ void readRange(NoteReader& r, Annotations& out) {
     return;
   }
   if (hasMost && note.max < note.min) {
-    r.warn(r.node(), "the least value of this '@Range' is above the greatest",
-           "write '@Range(min=0, max=10)'");
+    r.warn(
+        r.node(), "the least value of this '@Range' is above the greatest",
+        "write '@Range(min=" + shortestText(note.max) + ", max=" + shortestText(note.min) + ")'");
     return;
   }
   out.range = note;

@@ -30,6 +30,7 @@ constexpr Form kForms[] = {
     {"++", ForeignUse::Operator, "attr a = 3\nLot --> a++\n  A."},
     {"->", ForeignUse::Arrow, "Lot -> A."},
     {"=>", ForeignUse::Arrow, "Lot => A.\nB(n) => A."},
+    {"==>", ForeignUse::Arrow, "Lot ==> A."},
     {"else if", ForeignUse::Branch,
      "attr a = 3\nLot --> case a == 1 : A. else if a == 2 : B. else : C."},
     {"from", ForeignUse::Declaration, "from parts import Window\nLot --> A."},
@@ -67,6 +68,7 @@ std::string textFor(const ForeignWord& w) {
     case ForeignUse::Value: return "f(a) = " + word + "\nLot --> A.";
     case ForeignUse::Function: return "f(a) = " + word + "(a)\nLot --> A.";
     case ForeignUse::Operation: return "Lot --> " + word + "(1) A.";
+    case ForeignUse::Selector: return "Lot --> comp(f) { " + word + " : A. }";
     default: return {};
   }
 }
@@ -78,8 +80,9 @@ TEST(OtherLanguages, everyRowIsToldWithItsRemedy) {
     const Analysed a(text);
     const size_t expected = w.word == "=>" && w.use == ForeignUse::Arrow ? 2 : 1;
     ASSERT_EQ(a.diagnostics.all().size(), expected) << text << "\n" << a.messages();
-    const std::string remedy =
-        w.use == ForeignUse::Operation && !w.instead.empty() ? std::string(w.instead) : remedyOf(w);
+    const std::string remedy = w.use == ForeignUse::Operation && !w.instead.empty()
+                                   ? "'" + std::string(w.instead) + "'"
+                                   : remedyOf(w);
     EXPECT_NE(a.hint().find(remedy), std::string::npos) << text << "\n" << a.messages();
   }
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "base/number.h"
+#include "lang/other_languages.h"
 #include "lang/sema/analysis.h"
 
 namespace gable::lang {
@@ -92,16 +93,20 @@ void Analysis::reportSelector(NodeId node, const OpSpec* op) {
   const std::string_view word = text(node);
   const bool hasParts = op && !op->parts.empty();
   const bool onlyParts = hasParts && (op->isOnlyParts() || op->block == BlockKind::Operations);
-  std::string hint = word == "else" ? elseHint(op) : near(word, [&] {
-    std::vector<std::string_view> names;
-    for (const PartSpec& p : hasParts ? op->parts : std::span<const PartSpec>()) {
-      names.push_back(p.name);
-    }
-    for (const SelectorSpec& s : catalogue_.selectors) {
-      if (!onlyParts) names.push_back(s.name);
-    }
-    return names;
-  });
+  const ForeignWord* const foreign = onlyParts ? nullptr : foreignWord(ForeignUse::Selector, word);
+  std::string hint =
+      word == "else" ? elseHint(op)
+      : foreign      ? remedyOf(*foreign)
+                     : near(word, [&] {
+                    std::vector<std::string_view> names;
+                    for (const PartSpec& p : hasParts ? op->parts : std::span<const PartSpec>()) {
+                      names.push_back(p.name);
+                    }
+                    for (const SelectorSpec& s : catalogue_.selectors) {
+                      if (!onlyParts) names.push_back(s.name);
+                    }
+                    return names;
+                  });
   if (hint.empty()) hint = hasParts ? partsText(*op) : partOwners(word);
   if (hint.empty()) hint = "selectors are words such as 'front', 'side', 'top' and 'all'";
   if (hasParts && !onlyParts && hint.starts_with("its parts")) hint += ", and all selectors";

@@ -243,14 +243,16 @@ void Analysis::reportUndefinedRule(NodeId node, const RuleSet& found) {
     }
   }
   const std::pair<ModuleId, std::string_view> place = enter(body_.module, name);
-  std::string hint = near(place.second, [&] { return ruleNames(place.first); });
+  const bool isShort = called && !shortNameOf(name).empty();
+  std::string hint =
+      isShort ? std::string() : near(place.second, [&] { return ruleNames(place.first); });
   if (!hint.empty() && place.second.size() < name.size()) {
     const std::string_view before = name.substr(0, name.size() - place.second.size());
     hint = "did you mean " + quote(std::string(before) + meant_.nearest) + "?";
   }
   if (hint.empty()) hint = hintOfImport(place.first, place.second);
   if (hint.empty()) hint = hintOfOperation(name);
-  if (hint.empty() && !meant.empty()) {
+  if (hint.empty() && !meant.empty() && !isShort) {
     meant_ = {name, std::string(meant)};
     hint = "did you mean " + quote(meant) + "?";
   }
@@ -596,7 +598,9 @@ void Analysis::visitBlocks(NodeId node, const OpSpec& op) {
       visitRemainder(blocks[i], op);
       continue;
     }
-    if (i > 0) errorAt("unexpected-block", blocks[i], name + " takes no further block", "");
+    if (i > 0)
+      errorAt("unexpected-block", blocks[i], name + " takes no further block",
+              "put '[' and ']' around what makes the first, and begin anew behind it");
     // In the old form, union A, the other operand is the present shape.
     const bool two = t.has(node, kFlagOperand) || t.children(blocks[i]).size() == 2;
     if (op.block == BlockKind::Operands && !two) {
