@@ -426,6 +426,21 @@ TEST(Ifc, elementsLieInStoreys) {
   EXPECT_NE(text.find("IFCPROPERTYSINGLEVALUE('floors',$,IFCREAL(2.),$)"), std::string::npos);
 }
 
+// What is extruded has its height along z, and its depth along y.
+TEST(Ifc, openingsAreAsHighAsTheyStand) {
+  City c;
+  c.box("Glass", {0, 0, 0}, {1.1, 0.06, 1.4});
+  const Frame lying = Frame::of({3, 1, 0}, {1, 0, 0}, {0, 0, 1}, {0, -1, 0});
+  c.root("a", c.prototype("P"), lying);
+  c.box("Gate", {0, 0, 0}, {2.25, 0.04, 1});
+  c.root("b", c.prototype("Q"), Frame::of({9, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}));
+  const std::string path = inWritten("lying.ifc");
+  ASSERT_TRUE(writeModel(c.scene, path, {}).ok());
+  const std::string text = readFile(path).value();
+  EXPECT_NE(text.find(",$,1.4,1.1,.NOTDEFINED."), std::string::npos);
+  EXPECT_NE(text.find(",$,2.25,1.,.NOTDEFINED."), std::string::npos);
+}
+
 TEST(Ifc, equalElementsShareTheirShape) {
   City c;
   for (const double x : {0.0, 3.0, 6.0}) c.box("Glass", {x, 1, 0}, {1, 1.5, 0.1});

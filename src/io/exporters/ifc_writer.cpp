@@ -81,8 +81,9 @@ class IfcWriter {
   struct Element {
     CityPart part;
     uint32_t name = 0, material = kNoMaterial;
-    /// In the world, and the size along its own axes.
+    /// In the world.
     Box3 box;
+    /// Along its own axes: y along the one that is nearest to the vertical.
     Vec3 size;
   };
   /// `definition`: an IfcProductDefinitionShape in `frame`.
@@ -260,6 +261,14 @@ void IfcWriter::closeBuilding(const Attributes& known) {
 
 // ---- Elements -----------------------------------------------------------------------------------
 
+// A size along the axes of a frame, as Element has it.
+Vec3 upright(Vec3 size, const Frame& frame) {
+  const double x = std::fabs(frame.x.y), y = std::fabs(frame.y.y), z = std::fabs(frame.z.y);
+  if (x > y && x > z) std::swap(size.x, size.y);
+  if (z > y && z >= x) std::swap(size.z, size.y);
+  return size;
+}
+
 // What follows the tag in the lines of a class.
 std::string IfcWriter::tailOf(CityKind kind, const Vec3& size) const {
   switch (kind) {
@@ -310,7 +319,7 @@ void IfcWriter::endElement() {
     report_.triangles += shape_.triangleCount();
     open_.material = shape_.parts().begin()->first;
     open_.box = run_.box();
-    open_.size = ownBox_.size();
+    open_.size = upright(ownBox_.size(), inverse(ownAxes_));
     putElement(open_, shapes_->definition(shape_), frame_);
   }
   shape_.clear();
@@ -383,7 +392,7 @@ void IfcWriter::addInstance(const Instance& in, const Frame& world, const CityPa
                                  ",'Body','MappedRepresentation',(" + stepRef(item) + "))");
   const StepId definition = file_.add("IFCPRODUCTDEFINITIONSHAPE($,$,(" + stepRef(shown) + "))");
   putElement({part, scene_.prototypes[in.prototype].name, mapped.material,
-              boundsAt(mapped.box, world, {1, 1, 1}), mapped.box.size()},
+              boundsAt(mapped.box, world, {1, 1, 1}), upright(mapped.box.size(), world)},
              definition, world);
 }
 
