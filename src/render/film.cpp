@@ -13,6 +13,7 @@
 #include <span>
 
 #include "base/parallel.h"
+#include "base/parallel_work.h"
 #include "base/work.h"
 #include "math/trig.h"
 #include "render/integrator.h"
@@ -171,51 +172,59 @@ struct Tile {
   uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 
-/// The film and what its sums are divided by.
-struct FilmSums {
-  Film& film;
-  std::vector<Vec3f> wholeAlbedo;
-  std::vector<float> weight, wholeWeight;
+/// What samples have added to the pixels of a film, and how far those of each disagree.
+class FilmSums {
+ public:
+  explicit FilmSums(const Film& film)
+      : rows_(film.height), variance_(static_cast<size_t>(film.width) * film.height) {
+    for (std::vector<Mix>& row : rows_) {
+      work(kWorkBetweenLooks + 1);
+      row.resize(film.width);
+    }
+  }
 
-  explicit FilmSums(Film& of) : film(of) {
-    const size_t pixels = static_cast<size_t>(film.width) * film.height;
+  /// `share` for what all paths know, `wholeShare` for what whole ones do.
+  void add(uint32_t x, uint32_t y, const Mix& m, float share, float wholeShare) {
+    Mix::Numbers& sums = rows_[y][x].sums;
+    for (size_t k = 0; k < Mix::kBriefParts; ++k) sums[k] += m.sums[k] * share;
+    for (size_t k = Mix::kBriefParts; k < Mix::kParts; ++k) sums[k] += m.sums[k] * wholeShare;
+  }
+  void setVariance(size_t i, float variance) { variance_[i] = variance; }
+
+  /// Fills the film with the means.
+  void finish(Film& film, unsigned threads) {
     for (std::vector<Vec3f>* v :
-         {&film.direct, &film.sun, &film.albedo, &film.normal, &film.irradiance, &wholeAlbedo}) {
+         {&film.direct, &film.sun, &film.albedo, &film.normal, &film.irradiance}) {
       work(kWorkBetweenLooks + 1);
-      v->assign(pixels, {});
+      v->resize(variance_.size());
     }
-    for (std::vector<float>* v : {&film.distance, &film.variance, &weight, &wholeWeight}) {
-      work(kWorkBetweenLooks + 1);
-      v->assign(pixels, 0);
-    }
+    film.distance.resize(variance_.size());
+    parallelWork(film.height, threads, [&](size_t y, unsigned) {
+      work(kWorkBetweenLooks);
+      for (size_t x = 0; x < film.width; ++x) setMeans(rows_[y][x], y * film.width + x, film);
+    });
+    film.variance = std::move(variance_);
   }
 
-  void add(size_t i, const Mix& m, float share, float wholeShare) {
-    weight[i] += m.sums[Mix::kWeight] * share;
-    film.direct[i] += m.at(Mix::kDirect) * share;
-    film.sun[i] += m.at(Mix::kSun) * share;
-    film.albedo[i] += m.at(Mix::kAlbedo) * share;
-    film.normal[i] += m.at(Mix::kNormal) * share;
-    film.distance[i] += m.sums[Mix::kDistance] * share;
-    wholeWeight[i] += m.sums[Mix::kWholeWeight] * wholeShare;
-    wholeAlbedo[i] += m.at(Mix::kWholeAlbedo) * wholeShare;
-    film.irradiance[i] += m.at(Mix::kIndirect) * wholeShare;
+ private:
+  static void setMeans(const Mix& m, size_t i, Film& film) {
+    const float weight = m.sums[Mix::kWeight], share = weight > 0 ? 1 / weight : 0.0f;
+    film.direct[i] = m.at(Mix::kDirect) * share;
+    film.sun[i] = m.at(Mix::kSun) * share;
+    film.albedo[i] = m.at(Mix::kAlbedo) * share;
+    const float tone = luminance(m.at(Mix::kAlbedo)), byTone = tone > 0 ? 1 / tone : 0.0f;
+    film.normal[i] = m.at(Mix::kNormal) * byTone;
+    film.distance[i] = m.sums[Mix::kDistance] * byTone;
+    const float wholeWeight = m.sums[Mix::kWholeWeight];
+    const float whole = wholeWeight > 0 ? 1 / wholeWeight : 0.0f;
+    const Vec3f divisor = albedoDivisor(m.at(Mix::kWholeAlbedo) * whole);
+    const Vec3f light = m.at(Mix::kIndirect) * whole;
+    film.irradiance[i] = {light.x / divisor.x, light.y / divisor.y, light.z / divisor.z};
   }
 
-  /// From sums to means.
-  void finish() {
-    for (size_t i = 0; i < weight.size(); ++i) {
-      const float tone = luminance(film.albedo[i]), byTone = tone > 0 ? 1 / tone : 0.0f;
-      film.normal[i] *= byTone;
-      film.distance[i] *= byTone;
-      const float share = weight[i] > 0 ? 1 / weight[i] : 0.0f;
-      for (std::vector<Vec3f>* v : {&film.direct, &film.sun, &film.albedo}) (*v)[i] *= share;
-      const float whole = wholeWeight[i] > 0 ? 1 / wholeWeight[i] : 0.0f;
-      const Vec3f divisor = albedoDivisor(wholeAlbedo[i] * whole);
-      const Vec3f light = film.irradiance[i] * whole;
-      film.irradiance[i] = {light.x / divisor.x, light.y / divisor.y, light.z / divisor.z};
-    }
-  }
+  /// Small enough each to be had again from one picture to the next.
+  std::vector<std::vector<Mix>> rows_;
+  std::vector<float> variance_;
 };
 
 /// Whether all paths that are noted see one plane under the open sky in the same light, or nothing
@@ -273,7 +282,7 @@ struct TileTask {
 
   uint64_t traceSquare(uint32_t x0, uint32_t y0, uint32_t x1, uint32_t y1) const {
     const uint32_t samples = std::max(1u, options.samples);
-    uint32_t whole = stage.ambient ? std::min(samples, kMostWhole) : samples;
+    uint32_t whole = stage.ambient && options.denoise ? std::min(samples, kMostWhole) : samples;
     std::array<Pixel, 4> square;
     size_t count = 0;
     for (uint32_t y = y0; y < y1; ++y) {
@@ -331,7 +340,7 @@ struct TileTask {
 
   /// Adds a pixel's samples to the film: each pixel counts the same, however many it has.
   void deposit(const Pixel& p, uint32_t whole) const {
-    sums.film.variance[place(p.x, p.y)] = varianceOf(p.sum.indirect, p.sum.indirects, whole);
+    sums.setVariance(place(p.x, p.y), varianceOf(p.sum.indirect, p.sum.indirects, whole));
     const float share = 1 / static_cast<float>(p.end);
     const float wholeShare = 1 / static_cast<float>(whole);
     for (uint32_t j = 0; j < 3; ++j) {
@@ -339,7 +348,7 @@ struct TileTask {
         // Off the left and the upper edge numbers wrap around and are too large as well.
         const uint32_t x = p.x + i - 1, y = p.y + j - 1;
         if (x >= options.width || y >= options.height) continue;
-        sums.add(place(x, y), p.sum.mixes[3 * j + i], share, wholeShare);
+        sums.add(x, y, p.sum.mixes[3 * j + i], share, wholeShare);
       }
     }
   }
@@ -355,8 +364,7 @@ struct TileTask {
 
   /// How many brief paths bring a pixel's edges and shadows below what the eye tells apart.
   uint32_t briefPaths(const PixelSum& sum, uint32_t n, uint32_t most) const {
-    if (!options.denoise) return stage.ambient ? most : 0;
-    if (n < 2) return 0;
+    if (!options.denoise || n < 2) return 0;
     const float k = 1 / static_cast<float>(n);
     const float mean = sum.level * k;
     const float variance = std::max(0.0f, sum.levels * k - mean * mean) * k;
@@ -396,7 +404,7 @@ bool tracePicture(const Stage& stage, const Camera& camera, const Lens& lens,
       allRays += task.run(t, pixels);
     });
   }
-  sums.finish();
+  sums.finish(film, options.threads);
   rays += allRays;
   return !pixels.ended();
 }
