@@ -116,6 +116,7 @@ struct Mix {
   void add(const Numbers& sample, float weight) {
     for (size_t k = 0; k < kCount; ++k) sums[k] += sample[k] * weight;
   }
+  void put(size_t part, const Vec3f& v) { put(sums, part, v); }
   Vec3f at(size_t part) const { return {sums[part], sums[part + 1], sums[part + 2]}; }
 
  private:
@@ -269,6 +270,8 @@ struct Block {
   std::array<Pixel, kBlock * kBlock> all;
   std::array<Alike, kSquares> squares;
   Alike whole;
+  /// Sums over its paths.
+  Vec3f indirect, albedo;
   size_t count = 0;
 
   Block(uint32_t x0, uint32_t y0, uint32_t x1, uint32_t y1) {
@@ -349,23 +352,19 @@ struct TileTask {
 
   /// All pixels of one plane have the same light from the sky.
   static void evenOut(Block& block) {
-    Mix all;
     float sum = 0, squares = 0;
     for (const Pixel& p : block.pixels()) {
-      for (const Mix& m : p.sum.mixes) all.add<Mix::kParts>(m.sums, 1);
       sum += p.sum.indirect;
       squares += p.sum.indirects;
     }
-    const auto count = static_cast<uint32_t>(block.pixels().size());
-    const float variance = varianceOf(sum, squares, count);
-    for (size_t c = 0; c < 3; ++c) {
-      const float albedo = all.sums[Mix::kWholeAlbedo + c];
-      const float light = albedo > 0 ? all.sums[Mix::kIndirect + c] / albedo : 0.0f;
-      for (Pixel& p : block.pixels()) {
-        for (Mix& m : p.sum.mixes)
-          m.sums[Mix::kIndirect + c] = m.sums[Mix::kWholeAlbedo + c] * light;
-        p.sum.variance = variance;
-      }
+    const Vec3f& all = block.albedo;
+    const auto share = [](float of, float albedo) { return albedo > 0 ? of / albedo : 0.0f; };
+    const Vec3f light{share(block.indirect.x, all.x), share(block.indirect.y, all.y),
+                      share(block.indirect.z, all.z)};
+    const float variance = varianceOf(sum, squares, static_cast<uint32_t>(block.pixels().size()));
+    for (Pixel& p : block.pixels()) {
+      p.sum.variance = variance;
+      for (Mix& m : p.sum.mixes) m.put(Mix::kIndirect, m.at(Mix::kWholeAlbedo) * light);
     }
   }
 
@@ -389,6 +388,8 @@ struct TileTask {
         if (brief) continue;
         owners[i]->square->note(results[i]);
         block.whole.note(results[i]);
+        block.indirect += results[i].indirect;
+        block.albedo += results[i].albedo;
       }
       count = 0;
     };
