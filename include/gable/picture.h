@@ -173,8 +173,8 @@ struct PictureData {
   DiagnosticList diagnostics;
 };
 
-/// A model made ready once for any number of pictures. Copies share; one thread at a time may use
-/// them.
+/// A model made ready once for any number of pictures. Copies share; any number of threads may use
+/// them at the same time.
 class PictureMaker {
  public:
   explicit PictureMaker(const Model& model, const FileLimits& limits = {});

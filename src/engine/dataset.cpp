@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Who makes which items. A seed is derived once for all its cameras, so a seed is what is locked.
+// Who makes which items. A seed is derived once for all its cameras, so a seed is what is locked;
+// threads that have no seed left help with the pictures of the last ones.
 // All that is made is a function of the settings, so it does not matter by whom, nor in what order.
 
 #include "engine/dataset.h"
@@ -15,6 +16,7 @@
 #include "base/file_lock.h"
 #include "base/parallel.h"
 #include "engine/guard.h"
+#include "engine/shared_pictures.h"
 #include "gable/files.h"
 
 namespace gable {
@@ -68,7 +70,9 @@ class Maker {
         folder_(folder),
         categories_(categories),
         task_(task),
-        result_(result) {}
+        result_(result),
+        jobs_(settings.jobs.value_or(0) > 0 ? static_cast<uint64_t>(*settings.jobs)
+                                            : defaultJobs()) {}
 
   void run() {
     std::vector<uint64_t> seeds;
@@ -79,16 +83,26 @@ class Maker {
       if (!folder_.isWhole(seed)) seeds.push_back(seed);
     }
     tell(0);
-    const size_t jobs =
-        settings_.jobs.value_or(0) > 0 ? static_cast<size_t>(*settings_.jobs) : defaultJobs();
-    const size_t workers = std::max<size_t>(1, std::min(jobs, seeds.size()));
-    threads_ = static_cast<int>(std::max<size_t>(1, jobs / workers));
-    parallelFor(seeds.size(), static_cast<unsigned>(workers), [&](size_t i, unsigned) {
-      if (!stopped_) makeSeed(seeds[i]);
+    due_ = seeds.size() * settings_.cameras;
+    const size_t workers = std::max<size_t>(1, std::min<size_t>(jobs_, due_));
+    std::atomic<size_t> next{0};
+    parallelFor(workers, static_cast<unsigned>(workers), [&](size_t, unsigned) {
+      for (;;) {
+        const SharedPictures::Coming coming(shared_);
+        const size_t i = next++;
+        if (i >= seeds.size()) break;
+        if (!stopped_) makeSeed(seeds[i]);
+      }
+      shared_.help();
     });
   }
 
  private:
+  /// Processors for one of so many things that are made side by side.
+  int threadsFor(uint64_t things) const {
+    return static_cast<int>(jobs_ / std::clamp<uint64_t>(things, 1, jobs_));
+  }
+
   void makeSeed(uint64_t seed) {
     const std::string path = folder_.lock(seed);
     const FileLock lock(path);
@@ -108,7 +122,7 @@ class Maker {
     const double number = settings_.derive.seed + static_cast<double>(seed);
     DeriveSettings derive = settings_.derive;
     derive.seed = number;
-    derive.jobs = threads_;
+    derive.jobs = threadsFor(1 + (due_ - ended_ - 1) / settings_.cameras);
     derive.trace = settings_.labels != DatasetLabels::Rule;
     derive.progress = nullptr;
     const Model model = gable::derive(rules_, shapes_, derive);
@@ -128,17 +142,18 @@ class Maker {
       }
     }
     const Labeller labeller(rules_, categories_, settings_.labels, model);
-    for (uint32_t camera = 0; camera < settings_.cameras && !stopped_; ++camera) {
-      const std::string name = folder_.item(seed, camera);
-      if (folder_.has(name)) continue;
-      if (!task_.allowance().look(0, 0)) return stopByLimit();
-      draw({name, seed * settings_.cameras + camera + 1, number, camera}, maker, labeller);
-    }
+    shared_.drawAll(settings_.cameras, [&](uint32_t camera) {
+      draw({folder_.item(seed, camera), seed * settings_.cameras + camera + 1, number, camera},
+           maker, labeller);
+      ++ended_;
+    });
   }
 
   void draw(const DatasetItem& item, const PictureMaker& maker, const Labeller& labeller) {
+    if (stopped_ || folder_.has(item.name)) return;
+    if (!task_.allowance().look(0, 0)) return stopByLimit();
     PictureSettings settings = pictureOf(maker, settings_, item.seed, item.camera);
-    settings.jobs = threads_;
+    settings.jobs = threadsFor(due_ - ended_);
     settings.progress = nullptr;
     settings.limits = settings_.limits;
     // Half a picture is none.
@@ -201,7 +216,11 @@ class Maker {
   const Categories& categories_;
   Task& task_;
   DatasetResult& result_;
-  int threads_ = 1;
+  uint64_t jobs_;
+  /// Pictures of all seeds that are to be made, and those of them that have been looked at.
+  uint64_t due_ = 0;
+  std::atomic<uint64_t> ended_{0};
+  SharedPictures shared_;
   std::atomic<bool> stopped_{false};
   std::mutex telling_;
   std::set<std::string> told_;

@@ -10,9 +10,11 @@
 
 #include <array>
 #include <atomic>
+#include <optional>
 #include <span>
 
 #include "base/parallel.h"
+#include "base/parallel_work.h"
 #include "base/work.h"
 #include "math/trig.h"
 #include "render/integrator.h"
@@ -27,9 +29,12 @@ namespace {
 /// Dimensions of the sampler that no path uses.
 constexpr uint32_t kPixelDimension = 0, kLensDimension = 0x40000000;
 constexpr uint32_t kTile = 16;
+/// Pixels are traced in blocks of so many a side, and told apart by squares of 2 x 2.
+constexpr uint32_t kBlock = 4, kSquares = kBlock * kBlock / 4;
 /// With Stage::ambient: whole paths of a pixel at most, and then brief ones up to all its samples;
-/// and how many there are where all of a square of pixels see one open plane in the same light.
-constexpr uint32_t kMostWhole = 4, kPlainWhole = 2;
+/// and how many there are where all of a square, or of a block, see one open plane in the same
+/// light.
+constexpr uint32_t kMostWhole = 4, kPlainWhole = 2, kPlainestWhole = 1;
 /// How much alike their light and colour are, as a share, and their normals, as a cosine.
 constexpr float kAlikeLight = 0.1f, kAlikeNormal = 0.999f;
 /// Else: brief paths a whole one at most. And the errors that are aimed at, on a scale from black
@@ -111,6 +116,7 @@ struct Mix {
   void add(const Numbers& sample, float weight) {
     for (size_t k = 0; k < kCount; ++k) sums[k] += sample[k] * weight;
   }
+  void put(size_t part, const Vec3f& v) { put(sums, part, v); }
   Vec3f at(size_t part) const { return {sums[part], sums[part + 1], sums[part + 2]}; }
 
  private:
@@ -121,14 +127,23 @@ struct Mix {
   }
 };
 
+/// Of the mean of so many samples, by their sum and that of their squares.
+float varianceOf(float sum, float squares, uint32_t n) {
+  const float share = 1 / static_cast<float>(n), mean = sum * share;
+  // With one sample nothing is known of the spread; assume it as large as the light.
+  if (n < 2) return mean * mean;
+  return std::max(0.0f, squares * share - mean * mean) / static_cast<float>(n - 1);
+}
+
 /// The paths of a pixel: what they add to it and its neighbours, row by row, and how far they
 /// disagree.
 struct PixelSum {
   std::array<Mix, 9> mixes;
   /// Of what brief paths find, as luminance before the tone curve.
   float level = 0, levels = 0;
-  /// Of indirect light over albedo.
+  /// Of indirect light over albedo; the variance of its mean where it is known otherwise.
   float indirect = 0, indirects = 0;
+  std::optional<float> variance;
   uint64_t rays = 0;
 
   void add(const PathResult& path, const PixelFilter::Weights& across,
@@ -159,63 +174,63 @@ struct PixelSum {
   }
 };
 
-/// Of the mean of so many samples, by their sum and that of their squares.
-float varianceOf(float sum, float squares, uint32_t n) {
-  const float share = 1 / static_cast<float>(n), mean = sum * share;
-  // With one sample nothing is known of the spread; assume it as large as the light.
-  if (n < 2) return mean * mean;
-  return std::max(0.0f, squares * share - mean * mean) / static_cast<float>(n - 1);
-}
-
 struct Tile {
   uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 
-/// The film and what its sums are divided by.
-struct FilmSums {
-  Film& film;
-  std::vector<Vec3f> wholeAlbedo;
-  std::vector<float> weight, wholeWeight;
+/// What samples have added to the pixels of a film, and how far those of each disagree.
+class FilmSums {
+ public:
+  explicit FilmSums(const Film& film)
+      : rows_(film.height), variance_(static_cast<size_t>(film.width) * film.height) {
+    for (std::vector<Mix>& row : rows_) {
+      work(kWorkBetweenLooks + 1);
+      row.resize(film.width);
+    }
+  }
 
-  explicit FilmSums(Film& of) : film(of) {
-    const size_t pixels = static_cast<size_t>(film.width) * film.height;
+  /// `share` for what all paths know, `wholeShare` for what whole ones do.
+  void add(uint32_t x, uint32_t y, const Mix& m, float share, float wholeShare) {
+    Mix::Numbers& sums = rows_[y][x].sums;
+    for (size_t k = 0; k < Mix::kBriefParts; ++k) sums[k] += m.sums[k] * share;
+    for (size_t k = Mix::kBriefParts; k < Mix::kParts; ++k) sums[k] += m.sums[k] * wholeShare;
+  }
+  void setVariance(size_t i, float variance) { variance_[i] = variance; }
+
+  /// Fills the film with the means.
+  void finish(Film& film, unsigned threads) {
     for (std::vector<Vec3f>* v :
-         {&film.direct, &film.sun, &film.albedo, &film.normal, &film.irradiance, &wholeAlbedo}) {
+         {&film.direct, &film.sun, &film.albedo, &film.normal, &film.irradiance}) {
       work(kWorkBetweenLooks + 1);
-      v->assign(pixels, {});
+      v->resize(variance_.size());
     }
-    for (std::vector<float>* v : {&film.distance, &film.variance, &weight, &wholeWeight}) {
-      work(kWorkBetweenLooks + 1);
-      v->assign(pixels, 0);
-    }
+    film.distance.resize(variance_.size());
+    parallelWork(film.height, threads, [&](size_t y, unsigned) {
+      work(kWorkBetweenLooks);
+      for (size_t x = 0; x < film.width; ++x) setMeans(rows_[y][x], y * film.width + x, film);
+    });
+    film.variance = std::move(variance_);
   }
 
-  void add(size_t i, const Mix& m, float share, float wholeShare) {
-    weight[i] += m.sums[Mix::kWeight] * share;
-    film.direct[i] += m.at(Mix::kDirect) * share;
-    film.sun[i] += m.at(Mix::kSun) * share;
-    film.albedo[i] += m.at(Mix::kAlbedo) * share;
-    film.normal[i] += m.at(Mix::kNormal) * share;
-    film.distance[i] += m.sums[Mix::kDistance] * share;
-    wholeWeight[i] += m.sums[Mix::kWholeWeight] * wholeShare;
-    wholeAlbedo[i] += m.at(Mix::kWholeAlbedo) * wholeShare;
-    film.irradiance[i] += m.at(Mix::kIndirect) * wholeShare;
+ private:
+  static void setMeans(const Mix& m, size_t i, Film& film) {
+    const float weight = m.sums[Mix::kWeight], share = weight > 0 ? 1 / weight : 0.0f;
+    film.direct[i] = m.at(Mix::kDirect) * share;
+    film.sun[i] = m.at(Mix::kSun) * share;
+    film.albedo[i] = m.at(Mix::kAlbedo) * share;
+    const float tone = luminance(m.at(Mix::kAlbedo)), byTone = tone > 0 ? 1 / tone : 0.0f;
+    film.normal[i] = m.at(Mix::kNormal) * byTone;
+    film.distance[i] = m.sums[Mix::kDistance] * byTone;
+    const float wholeWeight = m.sums[Mix::kWholeWeight];
+    const float whole = wholeWeight > 0 ? 1 / wholeWeight : 0.0f;
+    const Vec3f divisor = albedoDivisor(m.at(Mix::kWholeAlbedo) * whole);
+    const Vec3f light = m.at(Mix::kIndirect) * whole;
+    film.irradiance[i] = {light.x / divisor.x, light.y / divisor.y, light.z / divisor.z};
   }
 
-  /// From sums to means.
-  void finish() {
-    for (size_t i = 0; i < weight.size(); ++i) {
-      const float tone = luminance(film.albedo[i]), byTone = tone > 0 ? 1 / tone : 0.0f;
-      film.normal[i] *= byTone;
-      film.distance[i] *= byTone;
-      const float share = weight[i] > 0 ? 1 / weight[i] : 0.0f;
-      for (std::vector<Vec3f>* v : {&film.direct, &film.sun, &film.albedo}) (*v)[i] *= share;
-      const float whole = wholeWeight[i] > 0 ? 1 / wholeWeight[i] : 0.0f;
-      const Vec3f divisor = albedoDivisor(wholeAlbedo[i] * whole);
-      const Vec3f light = film.irradiance[i] * whole;
-      film.irradiance[i] = {light.x / divisor.x, light.y / divisor.y, light.z / divisor.z};
-    }
-  }
+  /// Small enough each to be had again from one picture to the next.
+  std::vector<std::vector<Mix>> rows_;
+  std::vector<float> variance_;
 };
 
 /// Whether all paths that are noted see one plane under the open sky in the same light, or nothing
@@ -241,6 +256,46 @@ class Alike {
   bool any_ = false, all_ = true;
 };
 
+/// A pixel whose paths are being traced.
+struct Pixel {
+  uint32_t x = 0, y = 0;
+  /// The samples that are due, and how many of all are whole.
+  uint32_t begin = 0, end = 0, whole = 0;
+  PixelSum sum;
+  Alike* square = nullptr;
+};
+
+/// The pixels of a block, square by square.
+struct Block {
+  std::array<Pixel, kBlock * kBlock> all;
+  std::array<Alike, kSquares> squares;
+  Alike whole;
+  /// Sums over its paths.
+  Vec3f indirect, albedo;
+  size_t count = 0;
+
+  Block(uint32_t x0, uint32_t y0, uint32_t x1, uint32_t y1) {
+    size_t square = 0;
+    for (uint32_t y = y0; y < y1; y += 2) {
+      for (uint32_t x = x0; x < x1; x += 2, ++square) {
+        for (uint32_t v = y; v < std::min(y + 2, y1); ++v) {
+          for (uint32_t u = x; u < std::min(x + 2, x1); ++u) add(u, v, &squares[square]);
+        }
+      }
+    }
+  }
+
+  std::span<Pixel> pixels() { return {all.data(), count}; }
+
+ private:
+  void add(uint32_t x, uint32_t y, Alike* square) {
+    Pixel& p = all[count++];
+    p.x = x;
+    p.y = y;
+    p.square = square;
+  }
+};
+
 /// Traces the pixels of a tile.
 struct TileTask {
   const Stage& stage;
@@ -250,73 +305,95 @@ struct TileTask {
   const PixelFilter& filter;
   FilmSums& sums;
 
-  /// The pixels of a tile in squares of 2 x 2, whose rays run side by side. `pixels` is told how
-  /// many are done, and ends it.
+  /// The pixels of a tile block by block, whose rays run side by side. `pixels` is told how many
+  /// are done, and ends it.
   uint64_t run(const Tile& tile, Reporting& pixels) const {
     uint64_t rays = 0;
-    for (uint32_t y = tile.y0; y < tile.y1; y += 2) {
-      for (uint32_t x = tile.x0; x < tile.x1; x += 2) {
-        rays += traceSquare(x, y, std::min(x + 2, tile.x1), std::min(y + 2, tile.y1));
+    for (uint32_t y = tile.y0; y < tile.y1; y += kBlock) {
+      const uint32_t down = std::min(kBlock, tile.y1 - y);
+      for (uint32_t x = tile.x0; x < tile.x1; x += kBlock) {
+        Block block(x, y, std::min(x + kBlock, tile.x1), y + down);
+        rays += traceBlock(block);
       }
-      if (!pixels.add((tile.x1 - tile.x0) * std::min(2u, tile.y1 - y))) break;
+      if (!pixels.add((tile.x1 - tile.x0) * down)) break;
     }
     return rays;
   }
 
  private:
-  struct Pixel {
-    uint32_t x = 0, y = 0;
-    /// The samples that are due.
-    uint32_t begin = 0, end = 0;
-    PixelSum sum;
-  };
-
-  uint64_t traceSquare(uint32_t x0, uint32_t y0, uint32_t x1, uint32_t y1) const {
+  uint64_t traceBlock(Block& block) const {
     const uint32_t samples = std::max(1u, options.samples);
-    uint32_t whole = stage.ambient ? std::min(samples, kMostWhole) : samples;
-    std::array<Pixel, 4> square;
-    size_t count = 0;
-    for (uint32_t y = y0; y < y1; ++y) {
-      for (uint32_t x = x0; x < x1; ++x) square[count++] = {x, y, 0, whole, {}};
+    const bool spares = stage.ambient && options.denoise;
+    const uint32_t most = spares ? std::min(samples, kMostWhole) : samples;
+    for (Pixel& p : block.pixels()) p.whole = most;
+    if (spares) sparePaths(block, most);
+    traceWhole(block);
+    for (Pixel& p : block.pixels()) {
+      p.end += briefPaths(p.sum, p.whole, stage.ambient ? samples - p.whole : kMostBrief * p.whole);
     }
-    const std::span<Pixel> pixels(square.data(), count);
-    if (options.denoise && stage.ambient && whole > kPlainWhole) {
-      for (Pixel& p : pixels) p.end = kPlainWhole;
-      if (trace(pixels, false))
-        whole = kPlainWhole;
-      else
-        for (Pixel& p : pixels) p.end = whole;
-    }
-    trace(pixels, false);
-    const uint32_t most = stage.ambient ? samples - whole : kMostBrief * whole;
-    for (Pixel& p : pixels) p.end += briefPaths(p.sum, whole, most);
-    trace(pixels, true);
+    trace(block, true);
     uint64_t rays = 0;
-    for (const Pixel& p : pixels) {
-      deposit(p, whole);
+    for (const Pixel& p : block.pixels()) {
+      deposit(p);
       rays += p.sum.rays;
     }
     return rays;
   }
 
-  /// Traces what samples of pixels are due. Whether they are alike.
-  bool trace(std::span<Pixel> pixels, bool brief) const {
+  /// Traces some paths of each pixel, and finds which need no more.
+  void sparePaths(Block& block, uint32_t most) const {
+    for (Pixel& p : block.pixels()) p.whole = std::min(most, kPlainestWhole);
+    traceWhole(block);
+    if (block.whole.all()) return evenOut(block);
+    for (Pixel& p : block.pixels()) p.whole = std::min(most, kPlainWhole);
+    traceWhole(block);
+    for (Pixel& p : block.pixels()) p.whole = p.square->all() ? p.whole : most;
+  }
+
+  /// All pixels of one plane have the same light from the sky.
+  static void evenOut(Block& block) {
+    float sum = 0, squares = 0;
+    for (const Pixel& p : block.pixels()) {
+      sum += p.sum.indirect;
+      squares += p.sum.indirects;
+    }
+    const Vec3f& all = block.albedo;
+    const auto share = [](float of, float albedo) { return albedo > 0 ? of / albedo : 0.0f; };
+    const Vec3f light{share(block.indirect.x, all.x), share(block.indirect.y, all.y),
+                      share(block.indirect.z, all.z)};
+    const float variance = varianceOf(sum, squares, static_cast<uint32_t>(block.pixels().size()));
+    for (Pixel& p : block.pixels()) {
+      p.sum.variance = variance;
+      for (Mix& m : p.sum.mixes) m.put(Mix::kIndirect, m.at(Mix::kWholeAlbedo) * light);
+    }
+  }
+
+  void traceWhole(Block& block) const {
+    for (Pixel& p : block.pixels()) p.end = p.whole;
+    trace(block, false);
+  }
+
+  /// Traces what samples of pixels are due.
+  void trace(Block& block, bool brief) const {
     PathStart starts[Tracer::kMostTogether];
     Vec2f places[Tracer::kMostTogether];
     Pixel* owners[Tracer::kMostTogether];
     PathResult results[Tracer::kMostTogether];
     size_t count = 0;
-    Alike alike;
     const auto flush = [&] {
       traceTogether(stage, {starts, count}, options.seed, brief, results);
       for (size_t i = 0; i < count; ++i) {
         owners[i]->sum.add(results[i], filter.weights(places[i].x), filter.weights(places[i].y),
                            brief, stage.light.exposure);
-        alike.note(results[i]);
+        if (brief) continue;
+        owners[i]->square->note(results[i]);
+        block.whole.note(results[i]);
+        block.indirect += results[i].indirect;
+        block.albedo += results[i].albedo;
       }
       count = 0;
     };
-    for (Pixel& p : pixels) {
+    for (Pixel& p : block.pixels()) {
       for (; p.begin < p.end; ++p.begin) {
         owners[count] = &p;
         const Sampler sampler(p.x, p.y, p.begin, options.seed);
@@ -326,20 +403,20 @@ struct TileTask {
       }
     }
     if (count > 0) flush();
-    return alike.all();
   }
 
   /// Adds a pixel's samples to the film: each pixel counts the same, however many it has.
-  void deposit(const Pixel& p, uint32_t whole) const {
-    sums.film.variance[place(p.x, p.y)] = varianceOf(p.sum.indirect, p.sum.indirects, whole);
+  void deposit(const Pixel& p) const {
+    sums.setVariance(place(p.x, p.y),
+                     p.sum.variance.value_or(varianceOf(p.sum.indirect, p.sum.indirects, p.whole)));
     const float share = 1 / static_cast<float>(p.end);
-    const float wholeShare = 1 / static_cast<float>(whole);
+    const float wholeShare = 1 / static_cast<float>(p.whole);
     for (uint32_t j = 0; j < 3; ++j) {
       for (uint32_t i = 0; i < 3; ++i) {
         // Off the left and the upper edge numbers wrap around and are too large as well.
         const uint32_t x = p.x + i - 1, y = p.y + j - 1;
         if (x >= options.width || y >= options.height) continue;
-        sums.add(place(x, y), p.sum.mixes[3 * j + i], share, wholeShare);
+        sums.add(x, y, p.sum.mixes[3 * j + i], share, wholeShare);
       }
     }
   }
@@ -355,8 +432,7 @@ struct TileTask {
 
   /// How many brief paths bring a pixel's edges and shadows below what the eye tells apart.
   uint32_t briefPaths(const PixelSum& sum, uint32_t n, uint32_t most) const {
-    if (!options.denoise) return stage.ambient ? most : 0;
-    if (n < 2) return 0;
+    if (!options.denoise || n < 2) return 0;
     const float k = 1 / static_cast<float>(n);
     const float mean = sum.level * k;
     const float variance = std::max(0.0f, sum.levels * k - mean * mean) * k;
@@ -396,7 +472,7 @@ bool tracePicture(const Stage& stage, const Camera& camera, const Lens& lens,
       allRays += task.run(t, pixels);
     });
   }
-  sums.finish();
+  sums.finish(film, options.threads);
   rays += allRays;
   return !pixels.ended();
 }

@@ -58,15 +58,15 @@ constexpr float kNightLevel = 40 / 255.0f, kNightStops = -1.0f;
 /// By day, what shines less than this is lost in the light.
 constexpr float kLostByDay = 0.5f;
 
-/// Mean display level of some thousand pixels.
+/// Mean display level of some thousand pixels, from 0 to 1.
 float meanLevel(const std::vector<rt::Vec3f>& pixels, float exposure) {
   const size_t step = 1 + pixels.size() / 8192;
   float sum = 0, count = 0;
   for (size_t i = 0; i < pixels.size(); i += step) {
-    sum += rt::linearToSrgb(rt::luminance(rt::toneMapped(pixels[i] * exposure)));
+    sum += rt::srgbLevel(std::min(1.0f, rt::luminance(rt::toneMapped(pixels[i] * exposure))));
     ++count;
   }
-  return sum / count;
+  return sum / (255 * count);
 }
 
 /// From light to picture: veil and exposure.

@@ -220,7 +220,7 @@ struct Picture {
 };
 
 /// A scene made ready once, for any number of pictures. Keeps references to the scene and to the
-/// images of the textures. One thread may call at a time.
+/// images of the textures. Any number of threads may call at a time.
 class Renderer {
  public:
   explicit Renderer(const Scene& scene, const TextureSource* textures = nullptr);

@@ -135,6 +135,44 @@ TEST(Render, directLightIsMuchAsThatOfPathsWithFewerRays) {
   expectClean(render(scene, o));
 }
 
+TEST(Render, plainGroundTakesAPathAPixelAndIsEven) {
+  SceneMaker m;
+  m.box({-30, 0, -30}, {60, 0.01, 60}, m.material("#808080"));
+  RenderOptions o = smallOptions(64, 64, 16);
+  o.view = PictureView::Top;
+  o.lighting = kDirect;
+  o.adaptExposure = false;
+  o.sunElevation = 40;
+  const Scene scene = m.finish();
+  const Picture p = render(scene, o);
+  // To the surface, to the sun and to the sky; a little more at the border.
+  EXPECT_LT(p.stats.rays, 64u * 64u * 4u);
+  const double mean = luminanceOf(meanOf(p.image, 0.3, 0.3, 0.7, 0.7));
+  for (const double x : {0.3, 0.4, 0.5, 0.6}) {
+    EXPECT_NEAR(luminanceOf(meanOf(p.image, x, x, x + 0.05, x + 0.05)), mean, 0.02 * mean);
+  }
+  // It has the light that all samples of it have.
+  o.denoise = false;
+  EXPECT_NEAR(luminanceOf(meanOf(render(scene, o).image, 0.3, 0.3, 0.7, 0.7)), mean, 0.02 * mean);
+}
+
+TEST(Render, directLightIsSmoothedToWhatManySamplesShow) {
+  const Scene scene = streetScene();
+  RenderOptions o = smallOptions(96, 54, 16);
+  o.adaptExposure = false;
+  o.lighting = kDirect;
+  const Picture smoothed = render(scene, o);
+  o.samples = 256;
+  o.denoise = false;
+  const Picture many = render(scene, o);
+  double apart = 0;
+  for (size_t i = 0; i < many.image.rgb.size(); ++i) {
+    apart += std::abs(many.image.rgb[i] - smoothed.image.rgb[i]);
+  }
+  apart /= static_cast<double>(many.image.rgb.size());
+  EXPECT_LT(apart, 0.05 * luminanceOf(meanOf(many.image)));
+}
+
 class Shadow : public testing::TestWithParam<PictureLighting> {};
 
 TEST_P(Shadow, liesAwayFromTheSun) {

@@ -52,13 +52,33 @@ constexpr float toUnit(uint32_t x) { return static_cast<float>(x >> 8) * 0x1p-24
 Sampler::Sampler(uint32_t x, uint32_t y, uint32_t sample, uint32_t seed)
     : pixel_(mix32(x + mix32(y + mix32(seed + 0x9e3779b9U)))), sample_(reverseBits(sample)) {}
 
+namespace {
+
+/// The point of that index, its coordinates scrambled by `h`.
+Vec2f sobolPoint(uint32_t index, uint32_t h) {
+  // Reversed index and reversed second dimension are scrambled upwards and reversed at the end.
+  const uint32_t a = reverseBits(permuteUpwards(index, mix32(h ^ 0x68bc21ebU)));
+  const uint32_t b =
+      reverseBits(permuteUpwards(sobolSecondReversed(index), mix32(h ^ 0x02e5be93U)));
+  return {toUnit(a), toUnit(b)};
+}
+
+}  // namespace
+
 Vec2f Sampler::point(uint32_t dimension) const {
   const uint32_t h = mix32(pixel_ + dimension * 0x9e3779b9U);
-  const uint32_t i = nestedScramble(sample_, h);
-  // Reversed index and reversed second dimension are scrambled upwards and reversed at the end.
-  const uint32_t a = reverseBits(permuteUpwards(i, mix32(h ^ 0x68bc21ebU)));
-  const uint32_t b = reverseBits(permuteUpwards(sobolSecondReversed(i), mix32(h ^ 0x02e5be93U)));
-  return {toUnit(a), toUnit(b)};
+  return sobolPoint(nestedScramble(sample_, h), h);
+}
+
+Vec2f pointOfBlock(uint32_t x, uint32_t y, uint32_t sample, uint32_t seed) {
+  // The place along a Z through the block. Of each four points one is the pixel's n-th: by one of
+  // the few choices, linear in the bits of the place, that make nets in base 2 of the n-th ones of
+  // squares and blocks.
+  const uint32_t x0 = x & 1, y0 = y & 1, x1 = x >> 1 & 1, y1 = y >> 1 & 1;
+  const uint32_t place = x0 | y0 << 1 | x1 << 2 | y1 << 3;
+  const uint32_t first = (x0 ^ y0 ^ y1) | (x0 ^ x1 ^ y1) << 1;
+  const uint32_t index = (sample & ~3u) << 4 | place << 2 | (first ^ (sample & 3));
+  return sobolPoint(index, mix32((x >> 2) + mix32((y >> 2) + mix32(seed + 0x7f4a7c15U))));
 }
 
 float Sampler::number(uint32_t dimension) const {

@@ -27,6 +27,11 @@ class Sampler {
   uint32_t pixel_, sample_;
 };
 
+/// A point of [0,1)^2 for light that is smoothed: pixels share them in blocks of 4 x 4. Each four
+/// samples of a pixel are spread evenly, and so are the n-th samples of squares of 2 x 2 and of
+/// blocks.
+Vec2f pointOfBlock(uint32_t x, uint32_t y, uint32_t sample, uint32_t seed);
+
 /// The unit disc from the unit square, keeping areas and neighbours (Shirley and Chiu 1997).
 Vec2f onDisc(Vec2f u);
 /// A direction about the unit vector `n` with density cos / pi.

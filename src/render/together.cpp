@@ -138,10 +138,10 @@ class Bundle {
   void addSky() {
     ask(
         [&](size_t i) {
-          const Sampler numbers = sampler(i);
-          const Scatter next =
-              scatter(surfaces_[i], lobes_[i], -starts_[i].ray.direction,
-                      std::min(numbers.number(kPick), 0.9999999f), numbers.point(kDirection));
+          const PathStart& start = starts_[i];
+          const Scatter next = scatter(surfaces_[i], lobes_[i], -start.ray.direction,
+                                       std::min(sampler(i).number(kPick), 0.9999999f),
+                                       pointOfBlock(start.x, start.y, start.sample, seed_));
           values_[i] = next.weight;
           return next.direction;
         },

@@ -7,6 +7,8 @@
 
 #include "render/tone.h"
 
+#include <algorithm>
+#include <array>
 #include <vector>
 
 #include "math/trig.h"
@@ -64,6 +66,37 @@ Vec3f srgbToLinear(const Vec3& c) {
   return {srgbToLinear(v.x), srgbToLinear(v.y), srgbToLinear(v.z)};
 }
 
+namespace {
+
+/// The levels of even steps of the root of the light.
+class SrgbLevels {
+ public:
+  SrgbLevels() {
+    for (size_t i = 0; i < levels_.size(); ++i) {
+      const float root = std::min(1.0f, static_cast<float>(i) / kSteps);
+      levels_[i] = 255 * linearToSrgb(root * root);
+    }
+  }
+
+  float of(float v) const {
+    const float at = std::sqrt(v) * kSteps;
+    const size_t cell = static_cast<size_t>(at);
+    const float f = at - static_cast<float>(cell);
+    return levels_[cell] * (1 - f) + levels_[cell + 1] * f;
+  }
+
+ private:
+  static constexpr size_t kSteps = 4096;
+  std::array<float, kSteps + 2> levels_;
+};
+
+}  // namespace
+
+float srgbLevel(float v) {
+  static const SrgbLevels levels;
+  return levels.of(v);
+}
+
 Vec3f toneMapped(const Vec3f& light) {
   const Vec3f c = clamped(spread(light, 1 - kInset) * kBefore, 0, 1e4f);
   const Vec3f shown = {curve(c.x), curve(c.y), curve(c.z)};
@@ -84,13 +117,6 @@ std::vector<uint8_t> toRgba8(const LinearImage& image) {
   std::vector<uint8_t> rgba(pixels * 4, 255);
   if (image.rgb.size() < pixels * 3) return rgba;
 
-  // The encoding of 4096 steps, finer than the dither, replaces two million calls of pow.
-  constexpr int kSteps = 4096;
-  std::vector<float> encoded(kSteps + 2);
-  for (int i = 0; i <= kSteps + 1; ++i) {
-    const float t = std::min(1.0f, static_cast<float>(i) / kSteps);
-    encoded[static_cast<size_t>(i)] = 255 * linearToSrgb(t * t);
-  }
   for (size_t i = 0; i < pixels; ++i) {
     const Vec3f shown = toneMapped({image.rgb[3 * i], image.rgb[3 * i + 1], image.rgb[3 * i + 2]});
     // One dither value for the three channels keeps grey areas grey.
@@ -98,11 +124,8 @@ std::vector<uint8_t> toRgba8(const LinearImage& image) {
         static_cast<float>(mix32(static_cast<uint32_t>(i) + 0x51ed27U) >> 8) * 0x1p-24f;
     const float channel[3] = {shown.x, shown.y, shown.z};
     for (size_t k = 0; k < 3; ++k) {
-      const float at = std::sqrt(channel[k]) * kSteps;
-      const size_t cell = static_cast<size_t>(at);
-      const float f = at - static_cast<float>(cell);
-      const float v = encoded[cell] * (1 - f) + encoded[cell + 1] * f;
-      rgba[4 * i + k] = static_cast<uint8_t>(std::clamp(v + dither, 0.0f, 255.0f));
+      rgba[4 * i + k] =
+          static_cast<uint8_t>(std::clamp(srgbLevel(channel[k]) + dither, 0.0f, 255.0f));
     }
   }
   return rgba;

@@ -14,6 +14,9 @@ float srgbToLinear(float v);
 float linearToSrgb(float v);
 Vec3f srgbToLinear(const Vec3& c);
 
+/// 255 * linearToSrgb(v), to within a hundredth, in a few steps; for v in [0, 1].
+float srgbLevel(float v);
+
 /// Display-linear light in [0, 1] for scene light in [0, inf).
 Vec3f toneMapped(const Vec3f& light);
 /// The scene light whose toneMapped is `shown`, each component of which is below 1.

@@ -23,6 +23,7 @@ TEST(Image, pngReadsBackAsWritten) {
     image.rgba.push_back(static_cast<uint8_t>(randomBits(i)));
   const std::string four = encodePng(image, 4).value(), three = encodePng(image, 3).value();
   EXPECT_EQ(decodeImage(four).value().rgba, image.rgba);
+  EXPECT_EQ(decodeImage(encodePng(image, 4, 1).value()).value().rgba, image.rgba);
   const Image opaque = decodeImage(three).value();
   for (size_t i = 0; i < image.rgba.size(); ++i) {
     EXPECT_EQ(opaque.rgba[i], i % 4 == 3 ? 255 : image.rgba[i]);

@@ -179,7 +179,11 @@ void begin(PngWriting& w, uint32_t width, uint32_t height, int bits, int colorTy
   png_set_IHDR(w.png, w.info, width, height, bits, colorType, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_compression_level(w.png, w.level);
-  if (!w.filtered) png_set_filter(w.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+  // Who asks for the least level is in haste: trying filters takes as long as the compression.
+  constexpr int kHasty = 1;
+  if (!w.filtered || w.level <= kHasty) {
+    png_set_filter(w.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+  }
 }
 
 bool writePalette(PngWriting& w) {

@@ -11,13 +11,13 @@ double noise(double u, double v, int cellsU, int cellsV, uint64_t seed) {
   const double x = u * cellsU, y = v * cellsV;
   const int ix = floorOf(x), iy = floorOf(y);
   const double tx = smooth(x - ix), ty = smooth(y - iy);
-  const auto at = [&](int i, int j) {
-    return chance(static_cast<uint64_t>(wrapped(ix + i, cellsU)),
-                  static_cast<uint64_t>(wrapped(iy + j, cellsV)), seed);
+  const uint64_t left = hashCombine(seed, static_cast<uint64_t>(wrapped(ix, cellsU)));
+  const uint64_t right = hashCombine(seed, static_cast<uint64_t>(wrapped(ix + 1, cellsU)));
+  const auto between = [&](int j) {
+    const uint64_t row = static_cast<uint64_t>(wrapped(j, cellsV));
+    return chanceOf(left, row) * (1 - tx) + chanceOf(right, row) * tx;
   };
-  const double low = at(0, 0) * (1 - tx) + at(1, 0) * tx;
-  const double high = at(0, 1) * (1 - tx) + at(1, 1) * tx;
-  return low * (1 - ty) + high * ty;
+  return between(iy) * (1 - ty) + between(iy + 1) * ty;
 }
 
 double clouds(double u, double v, int cellsU, int cellsV, int octaves, uint64_t seed) {
@@ -32,45 +32,122 @@ double clouds(double u, double v, int cellsU, int cellsV, int octaves, uint64_t 
   return sum / weight;
 }
 
-Cell cellAt(double u, double v, const Cells& c) {
-  const double x = u * c.columns, y = v * c.rows;
-  const double wide = c.width / c.columns, high = c.height / c.rows;
-  const int ix = floorOf(x), iy = floorOf(y);
+namespace {
+
+/// The points of the cells about a place, 5 x 5 of them: two cells away is as far as a border can
+/// come from. Those of the rim are found only where they may count.
+class Sites {
+ public:
+  /// Without values of their own: many are never found.
   struct Site {
-    double x = 0, y = 0;
-    uint64_t i = 0, j = 0;
+    double x, y;
+    uint64_t i, j;
   };
-  // Two cells away is as far as a border can come from.
-  std::array<Site, 25> sites;
-  size_t near = 0;
-  double best = 1e9;
-  for (size_t k = 0; k < sites.size(); ++k) {
-    const int i = ix - 2 + static_cast<int>(k % 5), j = iy - 2 + static_cast<int>(k / 5);
-    Site& s = sites[k];
-    s.i = static_cast<uint64_t>(wrapped(i, c.columns));
-    s.j = static_cast<uint64_t>(wrapped(j, c.rows));
-    s.x = (i + 0.5 + c.jitter * (chance(s.i, s.j, c.seed) - 0.5) - x) * wide;
-    s.y = (j + 0.5 + c.jitter * (chance(s.i, s.j, c.seed + 1) - 0.5) - y) * high;
-    const double d = s.x * s.x + s.y * s.y;
-    if (d >= best) continue;
-    best = d;
-    near = k;
+
+  Sites(double u, double v, const Cells& c)
+      : cells_(c),
+        x_(u * c.columns),
+        y_(v * c.rows),
+        ix_(floorOf(x_)),
+        iy_(floorOf(y_)),
+        wide_(c.width / c.columns),
+        high_(c.height / c.rows) {
+    for (size_t k = 0; k < kCount; ++k) {
+      if (!isOnRim(k)) compare(k);
+    }
+    for (size_t k = 0; k < kCount; ++k) {
+      if (isOnRim(k) && leastSquared(k) <= best_) compare(k);
+    }
   }
-  const Site& own = sites[near];
+
+  const Site& nearest() const { return sites_[nearest_]; }
+  /// Squared.
+  double distance() const { return best_; }
+
+  /// To the border of the nearest one's cell.
+  double border() {
+    double border = 1e9;
+    for (size_t k = 0; k < kCount; ++k) {
+      if (isFound_[k]) border = std::min(border, borderTo(k));
+    }
+    // A border is at least half as far as its point is farther than the nearest one.
+    const double far = 2 * border + std::sqrt(best_);
+    for (size_t k = 0; k < kCount; ++k) {
+      if (isFound_[k] || leastSquared(k) > far * far * (1 + kRounding)) continue;
+      find(k);
+      border = std::min(border, borderTo(k));
+    }
+    return border;
+  }
+
+ private:
+  static constexpr size_t kSide = 5, kCount = kSide * kSide;
+  static constexpr double kRounding = 1e-9;
+
+  static int across(size_t k) { return static_cast<int>(k % kSide) - 2; }
+  static int down(size_t k) { return static_cast<int>(k / kSide) - 2; }
+  static bool isOnRim(size_t k) { return std::abs(across(k)) == 2 || std::abs(down(k)) == 2; }
+
+  /// The least that a point so many cells away is from a place that lies so far into its own cell.
+  double least(int cells, double into) const {
+    if (std::abs(cells) < 2) return 0;
+    return std::max(0.0, (cells < 0 ? into + 1.5 : 2.5 - into) - cells_.jitter / 2);
+  }
+  double leastSquared(size_t k) const {
+    const double x = least(across(k), x_ - ix_) * wide_, y = least(down(k), y_ - iy_) * high_;
+    return (x * x + y * y) * (1 - kRounding);
+  }
+
+  void find(size_t k) {
+    const int i = ix_ + across(k), j = iy_ + down(k);
+    Site& s = sites_[k];
+    s.i = static_cast<uint64_t>(wrapped(i, cells_.columns));
+    s.j = static_cast<uint64_t>(wrapped(j, cells_.rows));
+    const double aside = cells_.jitter * (chance(s.i, s.j, cells_.seed) - 0.5);
+    const double up = cells_.jitter * (chance(s.i, s.j, cells_.seed + 1) - 0.5);
+    s.x = (i + 0.5 + aside - x_) * wide_;
+    s.y = (j + 0.5 + up - y_) * high_;
+    isFound_[k] = true;
+  }
+
+  /// Of points as near as each other, the first counts.
+  void compare(size_t k) {
+    find(k);
+    const double d = sites_[k].x * sites_[k].x + sites_[k].y * sites_[k].y;
+    if (d > best_ || (d == best_ && k > nearest_)) return;
+    best_ = d;
+    nearest_ = k;
+  }
+
+  double borderTo(size_t k) const {
+    const Site &s = sites_[k], &own = nearest();
+    const double ax = s.x - own.x, ay = s.y - own.y, far = std::sqrt(ax * ax + ay * ay);
+    if (k == nearest_ || far == 0) return 1e9;
+    return ((s.x + own.x) * ax + (s.y + own.y) * ay) / (2 * far);
+  }
+
+  const Cells& cells_;
+  double x_, y_;
+  int ix_, iy_;
+  double wide_, high_;
+  std::array<Site, kCount> sites_;
+  std::array<bool, kCount> isFound_{};
+  size_t nearest_ = 0;
+  double best_ = 1e9;
+};
+
+}  // namespace
+
+Cell cellAt(double u, double v, const Cells& c) {
+  Sites sites(u, v, c);
+  const Sites::Site& own = sites.nearest();
   Cell out;
-  out.point = std::sqrt(best);
+  out.point = std::sqrt(sites.distance());
   out.dx = -own.x;
   out.dy = -own.y;
   out.id = chance(own.i, own.j, c.seed + 2);
   out.second = chance(own.i, own.j, c.seed + 3);
-  out.border = 1e9;
-  for (size_t k = 0; k < sites.size(); ++k) {
-    const double ax = sites[k].x - own.x, ay = sites[k].y - own.y;
-    const double far = std::sqrt(ax * ax + ay * ay);
-    if (k == near || far == 0) continue;
-    const double border = ((sites[k].x + own.x) * ax + (sites[k].y + own.y) * ay) / (2 * far);
-    out.border = std::min(out.border, border);
-  }
+  out.border = sites.border();
   return out;
 }
 

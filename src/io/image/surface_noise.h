@@ -25,12 +25,18 @@ inline Vec3 rgb(uint32_t hex) {
   return {(hex >> 16 & 255) / 255.0, (hex >> 8 & 255) / 255.0, (hex & 255) / 255.0};
 }
 
-inline int wrapped(int v, int period) { return (v % period + period) % period; }
+inline int wrapped(int v, int period) {
+  // Nearly all are within: a division takes as long as all else here.
+  return v >= 0 && v < period ? v : (v % period + period) % period;
+}
 inline int floorOf(double v) { return static_cast<int>(std::floor(v)); }
 
-/// In [0, 1), by address.
+/// In [0, 1), by address; `column` is hashCombine(seed, x).
+inline double chanceOf(uint64_t column, uint64_t y) {
+  return static_cast<double>(mix64(hashCombine(column, y)) >> 11) * 0x1.0p-53;
+}
 inline double chance(uint64_t x, uint64_t y, uint64_t seed) {
-  return static_cast<double>(mix64(hashCombine(hashCombine(seed, x), y)) >> 11) * 0x1.0p-53;
+  return chanceOf(hashCombine(seed, x), y);
 }
 
 /// Smooth noise in [0, 1) with so many lattice cells along u and v.

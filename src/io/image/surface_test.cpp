@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -36,6 +38,44 @@ double largestStep(const SurfaceField& field, bool across) {
 }
 
 }  // namespace
+
+TEST(Surface, cellsAreThoseOfAllPointsAbout) {
+  for (const double jitter : {0.0, 0.5, 1.0}) {
+    const surface::Cells cells{6, 4, 1.2, 2.0, jitter, 11};
+    const double wide = cells.width / cells.columns, high = cells.height / cells.rows;
+    for (int n = 0; n < 400; ++n) {
+      const auto number = static_cast<uint64_t>(n);
+      const double u = surface::chance(number, 1, 5), v = surface::chance(number, 2, 5);
+      // All of 7 x 7 cells, one by one.
+      std::vector<std::pair<double, double>> points;
+      const int ix = surface::floorOf(u * cells.columns), iy = surface::floorOf(v * cells.rows);
+      for (int j = iy - 3; j <= iy + 3; ++j) {
+        for (int i = ix - 3; i <= ix + 3; ++i) {
+          const auto column = static_cast<uint64_t>(surface::wrapped(i, cells.columns));
+          const auto row = static_cast<uint64_t>(surface::wrapped(j, cells.rows));
+          const double aside = surface::chance(column, row, cells.seed) - 0.5;
+          const double up = surface::chance(column, row, cells.seed + 1) - 0.5;
+          points.emplace_back((i + 0.5 + jitter * aside - u * cells.columns) * wide,
+                              (j + 0.5 + jitter * up - v * cells.rows) * high);
+        }
+      }
+      const auto far = [](const auto& p) { return std::hypot(p.first, p.second); };
+      const auto near =
+          *std::min_element(points.begin(), points.end(),
+                            [&](const auto& a, const auto& b) { return far(a) < far(b); });
+      double border = 1e9;
+      for (const auto& p : points) {
+        const double ax = p.first - near.first, ay = p.second - near.second;
+        if (std::hypot(ax, ay) == 0) continue;
+        border = std::min(border, ((p.first + near.first) * ax + (p.second + near.second) * ay) /
+                                      (2 * std::hypot(ax, ay)));
+      }
+      const surface::Cell cell = surface::cellAt(u, v, cells);
+      EXPECT_NEAR(cell.point, far(near), 1e-12);
+      EXPECT_NEAR(cell.border, border, 1e-12);
+    }
+  }
+}
 
 TEST(Surface, theLibraryIsSortedAndFoundByName) {
   const auto library = materialLibrary();
