@@ -239,6 +239,12 @@ DeriveOptions optionsOf(const DeriveSettings& settings, const Rules::Impl& rules
 
 }  // namespace
 
+Model::Impl::~Impl() {
+  if (result.recall && rules && result.recall->tables == rules->tables.get()) {
+    rules->tables->spare.keep(blocksOf(result));
+  }
+}
+
 void Model::Impl::makeSound(unsigned jobs) {
   sound = soundOf(result.scene, jobs);
   if (!sound.scene) return;

@@ -93,6 +93,11 @@ struct DerivedFrom {
 };
 
 struct Model::Impl {
+  Impl() = default;
+  Impl(const Impl&) = default;
+  /// Leaves its large blocks of memory to the next derivation, where there may be one.
+  ~Impl();
+
   bool found = true;
   DiagnosticList diagnostics;
   std::shared_ptr<Project> project;

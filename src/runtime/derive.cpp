@@ -76,6 +76,14 @@ void deriveShape(Pass& pass, Machine& machine, unsigned worker, const InitialSha
   pass.ranges[i] = {worker, traceBegin, tracer.size(), noteBegin, tracer.notes().size()};
 }
 
+// Workers begin with the memory of those of a derivation before.
+void lendMemory(Pass& pass, std::vector<SpareBlocks::Worker> spare) {
+  for (size_t w = 0; w < std::min(spare.size(), pass.machines.size()); ++w) {
+    pass.machines[w]->output() = std::move(spare[w].output);
+    pass.machines[w]->prototypeNumbers() = std::move(spare[w].numbers);
+  }
+}
+
 // Each worker takes initial shapes as long as there are any, and then portions of those that others
 // are at.
 Pass runPass(DeriveShared& shared, const std::vector<InitialShape>& shapes, unsigned jobs,
@@ -84,6 +92,7 @@ Pass runPass(DeriveShared& shared, const std::vector<InitialShape>& shapes, unsi
   for (unsigned w = 0; w < jobs; ++w) {
     pass.machines.push_back(std::make_unique<Machine>(shared, w));
   }
+  if (!pass.machines[0]->isFirstPass()) lendMemory(pass, std::exchange(shared.spare.workers, {}));
   pass.units.resize(shapes.size());
   pass.derived.assign(shapes.size(), 0);
   pass.attributes.resize(shapes.size());
@@ -240,10 +249,11 @@ bool anyHas(uint32_t effects, const Program& program, const std::vector<InitialS
 }
 
 // The attributes of leaves may take a fourth of the memory, as they are no part of what is counted.
-MergeInput mergeInput(const DeriveShared& shared, Recall* recall) {
+MergeInput mergeInput(DeriveShared& shared, Recall* recall) {
   const Environment& e = shared.environment;
   MergeInput input{shared.program, e.materials, e.attributes, shared.options.sources, recall};
   if (shared.before.recall) input.before = &shared.before;
+  if (recall) input.spare = &shared.spare;
   if (const auto bytes = shared.options.limits.bytes) input.mostAttributeBytes = *bytes / 4;
   return input;
 }
@@ -263,6 +273,18 @@ struct MadeOutputs {
   const Usage& usage;
   std::vector<Output> all;
 };
+
+// Outputs that merge() has emptied, where they were large enough to be worth it: those of a small
+// derivation behind a large one would hold the memory of that.
+void keepMemory(Pass& pass, MadeOutputs& outputs, size_t prototypes, SpareBlocks& spare) {
+  constexpr size_t kFewPrototypes = 1 << 14;
+  if (prototypes < kFewPrototypes) return;
+  for (size_t w = 0; w < outputs.all.size(); ++w) {
+    KeyNumbers& numbers = pass.machines[w]->prototypeNumbers();
+    numbers.clear();
+    spare.workers.push_back({std::move(outputs.all[w]), std::move(numbers)});
+  }
+}
 
 // The scene of all that the workers made, the messages and the trace.
 void assemble(Pass& pass, DeriveShared& shared, const std::vector<InitialShape>& shapes,
@@ -293,8 +315,11 @@ void assemble(Pass& pass, DeriveShared& shared, const std::vector<InitialShape>&
     result.roots.push_back({i, 0});
   }
   result.attributes = std::move(pass.attributes);
+  size_t prototypes = 0;
+  for (const Output& o : outputs.all) prototypes += o.prototypes.size();
   Merged merged =
       merge(outputs.all, roots, pass.portions->units(), mergeInput(shared, recall.get()));
+  if (recall) keepMemory(pass, outputs, prototypes, shared.spare);
   result.scene = std::move(merged.scene);
   for (size_t r = 0; r < result.roots.size(); ++r) {
     result.roots[r].reportsEnd = merged.reportsEnd[r];
@@ -497,7 +522,7 @@ std::unique_ptr<DeriveResult> deriveIn(Way way, const Program& program,
   DeriveShared shared(program, options, environment, usage);
   if (options.remember) {
     shared.reach = reachOf(program);
-    shared.before = recallInput(options.before, program, environment);
+    shared.before = recallInput(options.before, program, environment, std::move(shared.spare.bare));
   }
   FirstPass known;
   bool tookRooms = false;

@@ -22,6 +22,7 @@
 #include "gable/limits.h"
 #include "gable/trace.h"
 #include "program/program.h"
+#include "runtime/spare_memory.h"
 #include "scene/scene.h"
 #include "shape/services.h"
 #include "shape/shape.h"
@@ -65,6 +66,8 @@ struct Environment {
   AttributePool attributes;
   TagTable tags;
   Assets& assets;
+  /// Of derivations that were remembered and are gone.
+  SpareMemory spare;
 
   /// A table has no room any more: a derivation ended for it.
   std::atomic<bool> full{false};
@@ -190,7 +193,7 @@ struct DeriveResult {
   /// nothing else in the result does.
   uint64_t portions = 0;
   /// With DeriveOptions::remember, of a derivation that came to its end.
-  std::shared_ptr<const Recall> recall;
+  std::shared_ptr<Recall> recall;
 };
 
 DeriveResult derive(const Program& program, const std::vector<InitialShape>& shapes,

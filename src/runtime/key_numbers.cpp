@@ -49,6 +49,18 @@ void KeyNumbers::clear() {
   size_ = 0;
 }
 
+void KeyNumbers::restart(size_t count) {
+  constexpr size_t kTimesTooLarge = 4;
+  const size_t entries = entriesFor(count);
+  if (entries_.size() < entries || entries_.size() > kTimesTooLarge * entries) {
+    std::vector<Entry>().swap(entries_);
+    entries_.resize(entries);
+  } else {
+    std::fill(entries_.begin(), entries_.end(), Entry{});
+  }
+  size_ = 0;
+}
+
 void KeyNumbers::rehash(size_t entries) {
   std::vector<Entry> before(entries);
   before.swap(entries_);

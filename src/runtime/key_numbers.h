@@ -28,6 +28,11 @@ class KeyNumbers {
   void reserve(size_t count);
   /// Keeps the memory.
   void clear();
+  /// Forgets all and has room for so many. Keeps the memory, unless it is too little or many times
+  /// too much.
+  void restart(size_t count);
+  /// Bytes of memory.
+  size_t bytes() const { return entries_.capacity() * sizeof(Entry); }
   size_t size() const { return size_; }
 
  private:

@@ -51,5 +51,23 @@ TEST(KeyNumbers, forgetsAll) {
   EXPECT_EQ(*numbers.find(keyOf(5)), 9u);
 }
 
+TEST(KeyNumbers, startsAgainInTheSameMemory) {
+  KeyNumbers numbers;
+  for (uint32_t i = 0; i < 1000; ++i) numbers.emplace(keyOf(i), i);
+  const size_t bytes = numbers.bytes();
+  numbers.restart(900);
+  EXPECT_EQ(numbers.bytes(), bytes);
+  EXPECT_EQ(numbers.find(keyOf(5)), nullptr);
+  numbers.emplace(keyOf(5), 9);
+  EXPECT_EQ(*numbers.find(keyOf(5)), 9u);
+  numbers.restart(10);
+  EXPECT_LT(numbers.bytes(), bytes);
+  EXPECT_EQ(numbers.size(), 0u);
+  numbers.restart(5000);
+  const size_t more = numbers.bytes();
+  for (uint32_t i = 0; i < 5000; ++i) numbers.emplace(keyOf(i), i);
+  EXPECT_EQ(numbers.bytes(), more);
+}
+
 }  // namespace
 }  // namespace gable

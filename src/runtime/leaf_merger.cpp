@@ -75,6 +75,7 @@ LeafMerger::LeafMerger(std::vector<Output>& outputs, const MergeInput& input, Sc
     scene_.leaves = std::move(outputs[0].leaves);
     return;
   }
+  // Those of the caller may be there already.
   scene_.leaves.reserve(most);
   if (input.before) {
     const Scene& from = *input.before->scene;

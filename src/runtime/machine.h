@@ -49,7 +49,16 @@ namespace gable {
 /// What all workers of one derivation share.
 struct DeriveShared {
   DeriveShared(const Program& p, const DeriveOptions& o, Environment& e, Usage& b)
-      : program(p), options(o), environment(e), usage(b) {}
+      : program(p), options(o), environment(e), usage(b) {
+    if (options.remember) spare = environment.spare.take();
+  }
+  /// What of the spare memory was not used is left for others.
+  ~DeriveShared() {
+    spare.bare = std::move(before.bare);
+    environment.spare.keep(std::move(spare));
+  }
+  DeriveShared(const DeriveShared&) = delete;
+  DeriveShared& operator=(const DeriveShared&) = delete;
   const Program& program;
   const DeriveOptions& options;
   Environment& environment;
@@ -67,6 +76,7 @@ struct DeriveShared {
   /// By rule, and what came before; with DeriveOptions::remember.
   std::vector<Reach> reach;
   RecallInput before;
+  SpareBlocks spare;
   /// Something happened while an attribute was evaluated: where that is told depends on which part
   /// comes first, so no part can stand for itself.
   std::atomic<bool> unrepeatable{false};
@@ -91,6 +101,8 @@ class Machine final : public Services, private WorkMeter {
   /// Drops the output and what is known of it.
   void forget();
   Output& output() { return output_; }
+  /// Finished prototypes of the output by their keys.
+  KeyNumbers& prototypeNumbers() { return prototypes_.numbers(); }
   /// What was told since the last time it was asked for. What this worker told before is not told
   /// again.
   Diagnostics takeMessages() { return log_.take(); }

@@ -14,6 +14,7 @@
 #include "base/work.h"
 #include "runtime/leaf_merger.h"
 #include "runtime/recall.h"
+#include "runtime/spare_memory.h"
 
 namespace gable {
 
@@ -96,7 +97,7 @@ class Merger {
 
   // Room for what the outputs hold and what they have taken over. The number of leaves at most.
   size_t makeRoom(const std::vector<const OutputUnit*>& roots) {
-    size_t instances = 0, prototypes = 0, leaves = 0;
+    size_t instances = 0, prototypes = 0, leaves = 0, takenAsTheyWere = 0;
     for (size_t w = 0; w < outputs_.size(); ++w) {
       const Output& from = outputs_[w];
       workers_[w].prototypes.assign(from.prototypes.size(), kUnset);
@@ -105,6 +106,7 @@ class Merger {
       leaves += from.leaves.size();
       for (const OutputPrototype& p : from.prototypes) {
         if (p.isTaken() && p.isChanged()) leaves += p.range.leafCount;
+        takenAsTheyWere += p.isTaken() && !p.isChanged();
       }
     }
     if (input_.before) {
@@ -123,10 +125,14 @@ class Merger {
       for (const OutputUnit* unit : roots) addHoles(*unit);
       for (const OutputUnit& unit : portions_) addHoles(unit);
     }
-    scene_.instances.reserve(instances);
-    scene_.prototypes.reserve(prototypes);
-    if (input_.recall) input_.recall->prototypes.reserve(prototypes);
-    byKey_.reserve(prototypes);
+    SpareBlocks none;
+    SpareBlocks& spare = input_.spare ? *input_.spare : none;
+    scene_.instances = withRoom(std::move(spare.instances), instances);
+    scene_.prototypes = withRoom(std::move(spare.prototypes), prototypes);
+    if (input_.before) scene_.leaves = withRoom(std::move(spare.leaves), leaves);
+    if (input_.recall) input_.recall->prototypes = withRoom(std::move(spare.notes), prototypes);
+    byKey_ = std::move(spare.prototypeNumbers);
+    byKey_.restart(prototypes - takenAsTheyWere);
     return leaves;
   }
 
@@ -483,8 +489,7 @@ Merged merge(std::vector<Output>& outputs, const std::vector<const OutputUnit*>&
   }
   // Millions of small blocks: each in a worker of its own.
   const auto workers = static_cast<unsigned>(outputs.size());
-  parallelFor(workers, workers, [&](size_t w, unsigned) { outputs[w] = {}; });
-  outputs.clear();
+  parallelFor(workers, workers, [&](size_t w, unsigned) { outputs[w].drop(); });
   return merger.take();
 }
 

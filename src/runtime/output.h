@@ -128,6 +128,8 @@ struct MergeInput {
   struct Recall* recall = nullptr;
   /// Where what was taken over lies; null where nothing can have been.
   const struct RecallInput* before = nullptr;
+  /// Memory for the scene; null where there is none.
+  struct SpareBlocks* spare = nullptr;
   /// Reports and prints, instances expanded, and the bytes of their texts.
   uint64_t mostEvents = 20'000'000;
   uint64_t mostEventBytes = uint64_t{1} << 30;
@@ -148,7 +150,8 @@ struct Merged {
 PlainValue plainValue(const Value& v, const ValuePool& pool);
 AttributeValue plainAttribute(const std::string& name, const Value& v, const ValuePool& pool);
 
-/// Empties the outputs. `portions`: by number the units that fill the holes of others.
+/// Empties the outputs, which keep their memory. `portions`: by number the units that fill the
+/// holes of others.
 Merged merge(std::vector<Output>& outputs, const std::vector<const OutputUnit*>& roots,
              const std::deque<OutputUnit>& portions, const MergeInput& input);
 

@@ -42,13 +42,14 @@ bool sameAttributes(const std::vector<std::string>& names, const Program& progra
 }  // namespace
 
 RecallInput recallInput(const DeriveResult* before, const Program& program,
-                        const Environment& environment) {
+                        const Environment& environment, KeyNumbers bare) {
   if (!before || !before->recall) return {};
   const Recall& recall = *before->recall;
   if (recall.tables != &environment || !sameAttributes(recall.attributes, program)) return {};
-  RecallInput out{&recall, &before->scene, instructionsOf(recall.sources, program), {}};
+  RecallInput out{&recall, &before->scene, instructionsOf(recall.sources, program),
+                  std::move(bare)};
   const auto hasAttributes = [](const auto& notes) { return notes.attributes != 0; };
-  out.bare.reserve(static_cast<size_t>(
+  out.bare.restart(static_cast<size_t>(
       std::count_if(recall.prototypes.begin(), recall.prototypes.end(), hasAttributes)));
   for (uint32_t p = 0; p < recall.prototypes.size(); ++p) {
     const Recall::PrototypeNotes& notes = recall.prototypes[p];

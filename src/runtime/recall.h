@@ -107,9 +107,10 @@ struct RecallInput {
   KeyNumbers bare;
 };
 
-/// Empty where nothing can be taken over: there is no recall, or it is of other tables.
+/// Empty where nothing can be taken over: there is no recall, or it is of other tables. `bare`: for
+/// the memory that it has.
 RecallInput recallInput(const DeriveResult* before, const Program& program,
-                        const Environment& environment);
+                        const Environment& environment, KeyNumbers bare);
 
 /// Takes results of the derivation before over into the output of one worker. Their content stays
 /// in the scene before until merge() takes it from there; what is worked out here is what deriving

@@ -366,6 +366,35 @@ TEST(Recall, threadsTakeOverWhatOthersMade) {
   EXPECT_GT(recalled(model), 0u);
 }
 
+const char kColumns[] = R"(
+attr other = 3
+Lot --> split(x) { 0.7 : split(z) { 0.7 : Column(rand(1, 2)) }* }*
+Column(h) --> extrude(h) comp(f) { top : Top | side : Side. }
+Top --> extrude(other)
+)";
+
+// Models that nobody holds any more leave their memory to those that come.
+TEST(Recall, memoryOfModelsThatAreGoneChangesNothing) {
+  for (const int jobs : {1, 3}) {
+    Edited place(Shapes::lot(100, 100));
+    place.settings.jobs = jobs;
+    const std::string small = replaced(kColumns, "0.7 : Column", "70 : Column");
+    for (const char* const other : {"4", "5"}) {
+      place.next(replaced(kColumns, "other = 3", std::string("other = ") + other));
+    }
+    const Model last = place.next(kColumns);
+    EXPECT_EQ(shown(last), shown(place.fresh(kColumns))) << jobs << " jobs";
+    EXPECT_GT(last.impl().result.scene.prototypes.size(), 1u << 14);
+    SpareMemory& memory = last.impl().rules->tables->spare;
+    SpareBlocks spare = memory.take();
+    EXPECT_GT(spare.prototypes.capacity(), 1u << 14);
+    EXPECT_EQ(spare.workers.size(), static_cast<size_t>(jobs));
+    memory.keep(std::move(spare));
+    EXPECT_EQ(shown(place.next(small)), shown(place.fresh(small)));
+    EXPECT_EQ(memory.take().prototypes.capacity(), 0u);
+  }
+}
+
 TEST(Recall, warningsStay) {
   const std::string text =
       replaced(kBlocks, "top : RightRoof.", "top : i(\"none\" + \".obj\") Roof.");

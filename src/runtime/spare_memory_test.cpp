@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The Gable authors
+
+#include "runtime/spare_memory.h"
+
+#include <gtest/gtest.h>
+
+namespace gable {
+namespace {
+
+std::vector<Leaf> roomFor(size_t count) {
+  std::vector<Leaf> out;
+  out.reserve(count);
+  return out;
+}
+
+TEST(SpareMemory, keepsTheLargerBlock) {
+  SpareMemory memory;
+  for (const size_t count : {100, 400, 200}) memory.keep({.leaves = roomFor(count)});
+  EXPECT_EQ(memory.take().leaves.capacity(), 400u);
+  EXPECT_EQ(memory.take().leaves.capacity(), 0u);
+}
+
+TEST(SpareMemory, takesABlockThatFits) {
+  std::vector<Leaf> spare(300);
+  const Leaf* const place = spare.data();
+  const std::vector<Leaf> list = withRoom(std::move(spare), 200);
+  EXPECT_EQ(list.data(), place);
+  EXPECT_TRUE(list.empty());
+  EXPECT_GE(list.capacity(), 200u);
+}
+
+TEST(SpareMemory, givesBackWhatIsTooSmallOrMuchTooLarge) {
+  EXPECT_GE(withRoom(roomFor(100), 200).capacity(), 200u);
+  EXPECT_LT(withRoom(roomFor(100'000), 200).capacity(), 100'000u);
+}
+
+}  // namespace
+}  // namespace gable
