@@ -195,9 +195,9 @@ namespace {
 class KnownSets {
  public:
   std::optional<uint32_t> find(uint32_t set, uint32_t key, const Value& value) {
-    const size_t place = placeOf(set, key, value);
+    const uint64_t hash = hashOf(set, key, value);
     const std::lock_guard lock(mutex_);
-    const Known& k = known_[place];
+    const Known& k = known_[hash % known_.size()];
     const bool same =
         k.set == set && k.key == key && k.value.type == value.type && k.value.unit == value.unit &&
         k.value.id == value.id &&
@@ -206,9 +206,10 @@ class KnownSets {
     return k.result;
   }
   void keep(uint32_t set, uint32_t key, const Value& value, uint32_t result) {
-    const size_t place = placeOf(set, key, value);
+    const uint64_t hash = hashOf(set, key, value);
     const std::lock_guard lock(mutex_);
-    known_[place] = {set, key, result, value};
+    if (++kept_ > known_.size() && known_.size() < kMost) grow();
+    known_[hash % known_.size()] = {set, key, result, value};
   }
 
  private:
@@ -217,14 +218,26 @@ class KnownSets {
     uint32_t set = 0, key = 0, result = 0;
     Value value;
   };
-  static size_t placeOf(uint32_t set, uint32_t key, const Value& value) {
-    return hashCombine(uint64_t{set} << 32 | key, value.hash()) % kKept;
+  static uint64_t hashOf(uint32_t set, uint32_t key, const Value& value) {
+    return hashCombine(uint64_t{set} << 32 | key, value.hash());
   }
 
-  // Some hundred prefixes of the sets of some dozen imports.
-  static constexpr size_t kKept = 1 << 13;
+  void grow() {
+    std::vector<Known> before(known_.size() * 4);
+    before.swap(known_);
+    kept_ = 0;
+    for (const Known& k : before) {
+      if (k.result != 0) known_[hashOf(k.set, k.key, k.value) % known_.size()] = k;
+    }
+  }
+
+  // Some hundred prefixes of the sets of some dozen imports; in a town hundreds of houses have sets
+  // of their own, and each edit asks for all of them again.
+  static constexpr size_t kLeast = 1 << 13, kMost = 1 << 19;
   std::mutex mutex_;
-  std::vector<Known> known_{kKept};
+  std::vector<Known> known_{kLeast};
+  /// Since they last grew.
+  size_t kept_ = 0;
 };
 
 }  // namespace
