@@ -30,8 +30,6 @@ namespace {
 
 /// Stands for a chunk, or a batch, that was not there before.
 constexpr uint32_t kNew = 0xffffffff;
-/// Behind the bytes: what they become a part of goes in front, without moving house.
-constexpr size_t kRoom = 1 << 20;
 /// More than most leaves take: bytes that grow move house each time. What is reserved and never
 /// touched is free.
 constexpr size_t kBytesALeaf = 512;
@@ -199,7 +197,7 @@ class Writing {
     size_t size = 0;
     for (ChunkWriter& writer : writers_) size += writer.bytes().size();
     std::string out;
-    out.reserve(8 + text.size() + arrays.size() + chunks_.size() * 8 + size + kRoom);
+    out.reserve(8 + text.size() + arrays.size() + chunks_.size() * 8 + size + kRoomInFront);
     out = "GBU2";
     append(out, static_cast<uint32_t>(text.size()));
     out += text;

@@ -25,8 +25,6 @@ namespace {
 
 /// A thread has at least so many leaves.
 constexpr uint64_t kLeavesAPart = 1 << 16;
-/// Behind the bytes: what they become a part of goes in front, without moving house.
-constexpr size_t kRoom = 1 << 20;
 
 // Parts in path order as one list: looks are numbered as one part would, and arrays follow each
 // other.
@@ -50,7 +48,7 @@ class Joiner {
     text.append((4 - text.size() % 4) % 4, ' ');
     const auto size = static_cast<uint32_t>(text.size());
     std::string out;
-    out.reserve(text.size() + arrayBytes_ + kRoom);
+    out.reserve(text.size() + arrayBytes_ + kRoomInFront);
     out = "GBL1";
     out.append(reinterpret_cast<const char*>(&size), sizeof size);
     out += text;
