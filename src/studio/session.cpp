@@ -23,8 +23,9 @@ namespace {
 
 constexpr size_t kRulesKept = 4, kShapesKept = 4, kModelsKept = 4, kModelsOfAll = 16,
                  kPagesKept = 64;
-/// Of all models together, unless one alone has more: a town has three million.
-constexpr uint64_t kLeavesKept = 8'000'000;
+/// Of all models together, unless one alone has more. A town has one and a half million, and takes
+/// half a gigabyte.
+constexpr uint64_t kLeavesKept = 4'000'000;
 constexpr double kMostSeconds = 600, kUsualSeconds = 20;
 /// Of reading and analysing files, which nobody waits for longer.
 const FileLimits kFileLimits{20.0, uint64_t{2} << 30};
