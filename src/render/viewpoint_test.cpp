@@ -212,6 +212,20 @@ TEST(Viewpoint, groundIgnoresRootsButFollowsTerrain) {
   EXPECT_NEAR(makeWorld(valley.finish(), nullptr).footHeight, -8, 1e-6);
 }
 
+// A canal that is a small part of its town.
+TEST(Viewpoint, groundLiesBelowCanals) {
+  for (const bool isCanal : {true, false}) {
+    SceneMaker m;
+    const uint32_t grey = m.material("#808080");
+    m.box({0, -0.1, 0}, {500, 0.1, 500}, grey);
+    m.box({500, -1.4, 0}, {6, 0.2, 200}, grey);
+    Scene scene = m.finish();
+    scene.names.push_back("Water");
+    if (isCanal) scene.leaves.back().name = static_cast<uint32_t>(scene.names.size() - 1);
+    EXPECT_NEAR(makeWorld(scene, nullptr).footHeight, isCanal ? -1.4 : -0.1, 1e-6);
+  }
+}
+
 TEST(Viewpoint, eyeAndTargetReplaceTheView) {
   const Set s(boxScene({4, 4, 4}));
   RenderOptions o;

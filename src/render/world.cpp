@@ -79,8 +79,12 @@ class SpecialMaterials {
     for (size_t i = 0; i < matters_.size(); ++i) matters_[i] = matterNamed(scene.names[i]);
   }
 
+  Matter matterOf(const Leaf& leaf) const {
+    return leaf.name < matters_.size() ? matters_[leaf.name] : Matter::Plain;
+  }
+
   uint32_t of(const Leaf& leaf, uint32_t material) {
-    const Matter matter = leaf.name < matters_.size() ? matters_[leaf.name] : Matter::Plain;
+    const Matter matter = matterOf(leaf);
     if (matter == Matter::Plain) return material;
     const auto [at, isNew] = made_.try_emplace({material, matter}, material);
     if (isNew) {
@@ -229,7 +233,7 @@ class Builder {
       place.size = maxOf(toVec3f(box.size()));
     }
     part.pieces.push_back(place);
-    if (partIndex == 0 && !box.empty()) feet_.push_back({box.min.y, footArea(points_)});
+    if (partIndex == 0 && !box.empty()) addFoot(leaf, box.min.y, footArea(points_));
 
     uint32_t firstOf[2] = {kNone, kNone};
     for (size_t t = 0; t < triangles.corners.size(); ++t) {
@@ -305,6 +309,14 @@ class Builder {
     part.wallSin += flat * 2 * s2 * c2;
   }
 
+  void addFoot(const Leaf& leaf, double height, double area) {
+    /// More than a basin has, in square metres.
+    constexpr double kBodyOfWater = 50;
+    feet_.push_back({height, area});
+    if (area > kBodyOfWater && special_.matterOf(leaf) == Matter::Water)
+      lowestWater_ = std::min(lowestWater_, height);
+  }
+
   /// Area of the box about the points within half a metre above the lowest.
   template <class Points>
   static double footArea(const Points& points) {
@@ -358,7 +370,8 @@ class Builder {
       bounds.include(Vec3{5, 6, 5});
     }
     world_.bounds = bounds;
-    world_.footHeight = foot();
+    // However small its share of a whole town: no canal lies below the ground.
+    world_.footHeight = std::min(foot(), lowestWater_);
     if (area > 0) {
       world_.wallAngle = atan2Deg(s4, c4) / 4;
       world_.wallAgreement = std::sqrt(c4 * c4 + s4 * s4) / area;
@@ -401,6 +414,7 @@ class Builder {
   std::vector<Level> levels_;
   std::vector<Vec3> points_;
   std::vector<std::pair<double, double>> feet_;
+  double lowestWater_ = kFarthest;
   /// Of the root that is being placed.
   uint32_t root_ = 0;
 };
