@@ -11,11 +11,12 @@ from typing import Any
 
 from gable import _gable
 from gable._messages import Error, Message, messages_of, one_of, path_text, warn_of
+from gable._model import LIGHTING
 from gable._rules import Rules
 from gable._shapes import Shapes
 
 _WORDS = {"placing": ("orbit", "sampled"), "labels": ("rule", "label", "tag"), "format": ("coco", "json"),
-          "lighting": ("paths", "direct")}
+          "lighting": LIGHTING}
 
 
 @dataclass(frozen=True)

@@ -65,14 +65,11 @@ def derive(
     )
 
 
-_OPTIONS = ("seed", "start_rule", "jobs", "seconds", "memory", "progress", "attributes")
-
-
 def _refuse_near(rules: Rules, more: Mapping[str, Any]) -> None:
     """Raises TypeError for a keyword that is near to an option, where the rules have no such attribute."""
     known = {attribute.name for attribute in rules.attributes}
     for name in more:
-        near = difflib.get_close_matches(name, _OPTIONS, 1)
+        near = difflib.get_close_matches(name, derive.__kwdefaults__, 1)
         if near and name not in known and not difflib.get_close_matches(name, known, 1):
             raise TypeError(f"derive has no {name!r}, and the rules have no such attribute; {near[0]!r} may be meant")
 

@@ -17,10 +17,11 @@ if TYPE_CHECKING:
     import pandas
     from numpy.typing import NDArray
 
+LIGHTING = ("paths", "direct")
 _WORDS = {
     "view": ("iso", "top", "front", "street"),
     "style": ("photo", "clay", "blueprint", "ink", "section"),
-    "lighting": ("paths", "direct"),
+    "lighting": LIGHTING,
 }
 _MOST_LEAVES = 1 << 40
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 import difflib
 import os
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import gable
@@ -139,9 +139,7 @@ class ModelGenerator:
             raise ValueError(f"there is no encoder {geometryEncoderName!r}; the encoders are {known}")
         for name in options:
             if name not in _OPTIONS:
-                near = difflib.get_close_matches(name, _OPTIONS, 1)
-                meant = f"; {near[0]!r} may be meant" if near else ""
-                warnings.warn(f"the encoder option {name!r} is not heeded{meant}", stacklevel=2)
+                warnings.warn(f"the encoder option {name!r} is not heeded{_meant(name, _OPTIONS)}", stacklevel=2)
         rules = gable.Rules.load(rulePackagePath)
         models = []
         for index, shape in enumerate(self._shapes):
@@ -185,6 +183,12 @@ def get_api_version() -> list[int]:
     return [int(part) for part in gable.__version__.split(".")]
 
 
+def _meant(name: str, known: Iterable[str]) -> str:
+    """The end of a sentence that tells the nearest name; empty where none is near."""
+    near = difflib.get_close_matches(name, known, 1)
+    return f"; {near[0]!r} may be meant" if near else ""
+
+
 def _derived(rules: gable.Rules, shape: InitialShape, given: Mapping[str, Any]) -> gable.Model:
     known = {a.name for a in rules.attributes}
     attributes = {}
@@ -192,9 +196,7 @@ def _derived(rules: gable.Rules, shape: InitialShape, given: Mapping[str, Any]) 
         if name in known:
             attributes[name] = value
         elif name not in _NO_ATTRIBUTES:
-            near = difflib.get_close_matches(name, known, 1)
-            meant = f"; {near[0]!r} may be meant" if near else ""
-            warnings.warn(f"the rules have no attribute {name!r}{meant}", stacklevel=3)
+            warnings.warn(f"the rules have no attribute {name!r}{_meant(name, known)}", stacklevel=3)
     start = given.get("startRule")
     # PRT names styles and rules as "Default$Lot".
     start_rule = str(start).rpartition("$")[2] if start else None

@@ -94,19 +94,19 @@ void Analysis::reportSelector(NodeId node, const OpSpec* op) {
   const bool hasParts = op && !op->parts.empty();
   const bool onlyParts = hasParts && (op->isOnlyParts() || op->block == BlockKind::Operations);
   const ForeignWord* const foreign = onlyParts ? nullptr : foreignWord(ForeignUse::Selector, word);
-  std::string hint =
-      word == "else" ? elseHint(op)
-      : foreign      ? remedyOf(*foreign)
-                     : near(word, [&] {
-                    std::vector<std::string_view> names;
-                    for (const PartSpec& p : hasParts ? op->parts : std::span<const PartSpec>()) {
-                      names.push_back(p.name);
-                    }
-                    for (const SelectorSpec& s : catalogue_.selectors) {
-                      if (!onlyParts) names.push_back(s.name);
-                    }
-                    return names;
-                  });
+  const auto names = [&] {
+    std::vector<std::string_view> out;
+    for (const PartSpec& p : hasParts ? op->parts : std::span<const PartSpec>()) {
+      out.push_back(p.name);
+    }
+    for (const SelectorSpec& s : catalogue_.selectors) {
+      if (!onlyParts) out.push_back(s.name);
+    }
+    return out;
+  };
+  std::string hint = word == "else" ? elseHint(op)
+                     : foreign      ? remedyOf(*foreign)
+                                    : near(word, names);
   if (hint.empty()) hint = hasParts ? partsText(*op) : partOwners(word);
   if (hint.empty()) hint = "selectors are words such as 'front', 'side', 'top' and 'all'";
   if (hasParts && !onlyParts && hint.starts_with("its parts")) hint += ", and all selectors";
