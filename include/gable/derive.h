@@ -48,7 +48,7 @@ struct DeriveSettings {
   /// Called from any thread with the number of initial shapes that are done, and of all.
   std::function<void(size_t done, size_t total)> progress;
   /// Ends the derivation soon after it becomes true. May be null.
-  std::atomic<bool>* cancel = nullptr;
+  const std::atomic<bool>* cancel = nullptr;
 };
 
 /// With mistakes in the settings the model is empty and has their diagnostics. It is empty where

@@ -83,14 +83,12 @@ gable_status settingsOf(const gable_derive_settings* given, DeriveSettings& out,
   if (s.jobs < 0) return fail(GABLE_ERROR_ARGUMENT, "the number of threads is below 0");
   if (s.jobs > 0) out.jobs = s.jobs;
   setLimits(s, out.limits);
-  out.cancel = &own;
-  if (s.cancel) {
-    out.cancel = valueOf<CancelObject>(s.cancel);
-    if (!out.cancel) return fail(GABLE_ERROR_ARGUMENT, "'cancel' is of another kind");
-  }
+  std::atomic<bool>* const cancel = s.cancel ? valueOf<CancelObject>(s.cancel) : &own;
+  if (!cancel) return fail(GABLE_ERROR_ARGUMENT, "'cancel' is of another kind");
+  out.cancel = cancel;
   if (s.progress) {
-    out.progress = [progress = s.progress, user = s.progress_user, cancel = out.cancel](
-                       size_t done, size_t total) {
+    out.progress = [progress = s.progress, user = s.progress_user, cancel](size_t done,
+                                                                           size_t total) {
       if (progress(user, done, total) != 0) cancel->store(true);
     };
   }

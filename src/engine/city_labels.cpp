@@ -57,7 +57,8 @@ std::vector<std::string> tagsThatSay(const DerivationTrace& trace) {
 
 }  // namespace
 
-CityLabels::CityLabels(const Model::Impl& model) : model_(model) {
+CityLabels::CityLabels(const Model::Impl& model, const std::atomic<bool>* cancel)
+    : model_(model), cancel_(cancel) {
   if (!model.rules || !model.from) return;
   labels_ = labelsOf(Rules(model.rules));
   for (std::string& label : labels_) {
@@ -122,8 +123,9 @@ bool CityLabels::says(const ShapeFootprint& shape) const {
 std::shared_ptr<const Model::Impl> CityLabels::derivedAgain(std::optional<size_t> shape) const {
   DeriveSettings settings = model_.from->settings;
   settings.trace = true;
+  settings.cancel = cancel_;
   const Shapes& shapes = model_.from->shapes;
-  if (!shape) return derived(Rules(model_.rules), shapes, settings);
+  if (!shape) return derivedUnlessStopped(shapes, settings);
   settings.jobs = 1;
   settings.shapeSeeds.clear();
   for (const auto& [index, seed] : model_.from->settings.shapeSeeds) {
@@ -135,7 +137,15 @@ std::shared_ptr<const Model::Impl> CityLabels::derivedAgain(std::optional<size_t
   one->isWhole = false;
   ShapeFootprint& f = one->footprints.emplace_back(shapes.impl().footprints[*shape]);
   if (f.index < 0) f.index = static_cast<int64_t>(*shape);
-  return derived(Rules(model_.rules), Shapes(std::move(one)), settings);
+  return derivedUnlessStopped(Shapes(std::move(one)), settings);
+}
+
+std::shared_ptr<const Model::Impl> CityLabels::derivedUnlessStopped(
+    const Shapes& shapes, const DeriveSettings& settings) const {
+  std::shared_ptr<const Model::Impl> model = derived(Rules(model_.rules), shapes, settings);
+  // Who has stopped it wants no file without labels.
+  work(kWorkBetweenLooks + 1);
+  return model;
 }
 
 // Of all leaves of a traced derivation, by their numbers among all of them.

@@ -7,6 +7,7 @@
 // about other shapes.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -20,8 +21,8 @@ namespace gable {
 
 class CityLabels {
  public:
-  /// `model` must outlive it.
-  explicit CityLabels(const Model::Impl& model);
+  /// `model` must outlive it. The second derivations end where `cancel` says so; it may be null.
+  CityLabels(const Model::Impl& model, const std::atomic<bool>* cancel);
 
   /// As WriteOptions::labelsOf. O(shapes made for the root).
   std::vector<LabelledLeaves> of(size_t root);
@@ -35,9 +36,12 @@ class CityLabels {
   int32_t ruleOf(const ShapeFootprint& shape) const;
   bool says(const ShapeFootprint& shape) const;
   std::shared_ptr<const Model::Impl> derivedAgain(std::optional<size_t> shape) const;
+  std::shared_ptr<const Model::Impl> derivedUnlessStopped(const Shapes& shapes,
+                                                          const DeriveSettings& settings) const;
   std::vector<LabelledLeaves> labelsIn(const Model::Impl& again) const;
 
   const Model::Impl& model_;
+  const std::atomic<bool>* const cancel_;
   /// By rule: its label, where that says a part.
   std::vector<std::string> labels_;
   std::vector<bool> rulesSay_;

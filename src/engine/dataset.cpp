@@ -129,14 +129,16 @@ class Maker {
     note(model.diagnostics());
     if (model.end() != End::Done) return stop({}, model.end());
     if (hasErrors(model.diagnostics())) return stop({});
-    const PictureMaker maker(model);
-    if (!maker.ok()) return stop(maker.diagnostics());
+    const PictureMaker maker(model, settings_.limits);
+    if (!maker.ok()) return stopAt(maker.diagnostics());
     // Settings that no picture can be made by must not become those of the folder.
     if (!maker.pose(settings_.picture)) return stop(maker.draw(settings_.picture).diagnostics);
     if (const auto e = folder_.begin()) return stop({diagnosticOf(*e)});
+    WriteSettings write = settings_.write;
+    if (!write.limits.cancel) write.limits.cancel = settings_.limits.cancel;
     if (!settings_.model.empty() && !folder_.has(folder_.model(seed))) {
       if (!put(folder_.model(seed), [&](const std::string& aside) {
-            return model.write(aside + "model." + settings_.model, settings_.write).diagnostics;
+            return model.write(aside + "model." + settings_.model, write).diagnostics;
           })) {
         return;
       }
@@ -175,10 +177,7 @@ class Maker {
     const DiagnosticList wrong = folder_.put(part, fill);
     if (wrong.empty()) return true;
     // What is half written when it is cancelled is made again by the next run.
-    if (wasCancelled(wrong))
-      stopByLimit();
-    else
-      stop(wrong);
+    stopAt(wrong);
     return false;
   }
 
@@ -202,6 +201,14 @@ class Maker {
     note(why);
     const std::lock_guard lock(telling_);
     if (end != End::Done) result_.end = end;
+  }
+
+  /// What is no mistake where the user has stopped it.
+  void stopAt(const DiagnosticList& wrong) {
+    if (wasCancelled(wrong))
+      stopByLimit();
+    else
+      stop(wrong);
   }
 
   void stopByLimit() {

@@ -155,8 +155,8 @@ WriteResult written(const Model::Impl& impl, const std::string& path,
   options.geo = impl.geo.get();
   options.attributesOf = [&impl](size_t root) { return knownOfRoot(impl, root); };
   std::optional<CityLabels> labels;
-  options.labelsOf = [&impl, &labels](size_t root) {
-    if (!labels) labels.emplace(impl);
+  options.labelsOf = [&](size_t root) {
+    if (!labels) labels.emplace(impl, settings.limits.cancel);
     return labels->of(root);
   };
   options.readTexture = [&impl](const std::string& texture) -> Result<std::string> {

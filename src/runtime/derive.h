@@ -146,7 +146,7 @@ struct DeriveOptions {
   const GeoFrame* geo = nullptr;
   /// Called from any thread with the number of initial shapes done.
   std::function<void(size_t done, size_t total)> progress;
-  std::atomic<bool>* cancel = nullptr;
+  const std::atomic<bool>* cancel = nullptr;
   /// Keep in the result what a later derivation needs to take parts of it over. Without effect
   /// where sharing is off and where rules ask about other shapes.
   bool remember = false;
