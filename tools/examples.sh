@@ -3,9 +3,9 @@
 #
 # What an example is: examples/NAME/NAME.cga, or a grammar of that name in another notation, on the
 # shapes of examples/NAME/buildings.geojson where there is such a file. generate.args beside them holds further arguments of
-# `gable generate`, pictures.args those of all pictures, picture.args, street.args, side.args and above.args those of one
-# each; # starts a comment in them. An example of a place is a map instead,
-# examples/NAME/NAME.osm or NAME.osm.pbf, for `gable city`. Sourced from the repository's root.
+# `gable generate`, pictures.args those of all its pictures, picture.args, street.args, side.args and above.args those of
+# one each; examples/pictures.args has those of all pictures of all examples. # starts a comment in them. An example of
+# a place is a map instead, examples/NAME/NAME.osm or NAME.osm.pbf, for `gable city`. Sourced from the repository's root.
 
 # The park grammars share a folder: examples/park/NAME.park is the example park/NAME.
 
@@ -87,8 +87,8 @@ generate_example() {
   "$gable" generate "${arguments[@]}" "$@" -o "$model"
 }
 
-# picture_arguments NAME VIEW: what all pictures of an example are told, and what one is: its camera.
-picture_arguments() { words "examples/$1/pictures.args"; words "examples/$1/$2.args"; }
+# picture_arguments NAME VIEW: what all pictures of all examples are told, those of one, and one picture: its camera.
+picture_arguments() { words examples/pictures.args; words "examples/$1/pictures.args"; words "examples/$1/$2.args"; }
 
 # samples NAME VIEW: how many a pixel has, where the picture's own arguments do not say it.
 samples() { picture_arguments "$1" "$2" | grep -qx -e --samples || echo --samples 24; }

@@ -99,7 +99,7 @@ struct RenderArguments {
   std::string lighting = "paths";
   /// latitude,longitude,date,hour
   std::string sunAt;
-  std::optional<double> haze, mist, aperture, focus, lamps, litRooms;
+  std::optional<double> haze, clouds, mist, aperture, focus, lamps, litRooms;
   std::string exposure = "auto";
   std::string cut;
   std::optional<int> bounces;

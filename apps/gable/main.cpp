@@ -66,6 +66,8 @@ void addLookOptions(CLI::App* app, RenderArguments& a) {
       ->excludes(sun);
   app->add_option("--haze", a.haze, "Dust in the air: 1 on a clear day, 5 on a milky one")
       ->check(number({0, 50}));
+  app->add_option("--clouds", a.clouds, "Share of the sky that clouds hide, 0 to 1 (default 0)")
+      ->check(number({0, 1}));
   app->add_option("--mist", a.mist, "Metres over which mist takes 63 % of a colour, 0 for none")
       ->check(number({0, 1e9}));
   app->add_option("--exposure", a.exposure,

@@ -150,6 +150,7 @@ int lightSettings(const RenderArguments& a, gable::PictureSettings& s) {
     return wrongOption("--cut", "front, side, or a plane such as z=3, y=1.2 or -x=0", a.cut);
   }
   s.haziness = a.haze.value_or(s.haziness);
+  s.clouds = a.clouds.value_or(s.clouds);
   s.mist = a.mist;
   s.aperture = a.aperture;
   s.focus = a.focus;

@@ -76,6 +76,9 @@ struct PictureSettings {
   std::optional<SunTime> sunTime;
   /// Dust in the air: 1 on a clear day, 5 on a milky one.
   double haziness = 1;
+  /// The share of the sky that clouds hide, 0 to 1. They are seen, and in mirrors, but cast no
+  /// shadow.
+  double clouds = 0;
   /// Metres over which mist takes 63 % of a thing's colour, 0 for none; absent: as on a clear day.
   std::optional<double> mist;
   /// Stops by which the picture is brightened, of an exposure for sunlit stone; absent: automatic,

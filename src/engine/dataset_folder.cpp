@@ -74,6 +74,7 @@ void writePicture(JsonWriter& w, const PictureSettings& p) {
   w.field("bounces", p.bounces).field("denoise", p.denoise);
   w.field("look", static_cast<int>(p.look)).field("lighting", static_cast<int>(p.lighting));
   writeSun(w, p);
+  if (p.clouds > 0) w.field("clouds", p.clouds);
   w.field("haziness", p.haziness).field("lamps", p.lamps).field("turn", p.turn);
   optional(w, "mist", p.mist);
   optional(w, "exposure", p.exposure);

@@ -59,6 +59,9 @@ std::optional<Error> mistakeIn(const PictureSettings& s) {
   if (!isWithin(s.haziness, 0, 50)) {
     return wrongSetting("the air's haze is no number from 0 to 50", "1 is a clear day");
   }
+  if (!isWithin(s.clouds, 0, 1)) {
+    return wrongSetting("clouds are no share of the sky from 0 to 1", "0.25 is a fair day");
+  }
   if (s.bounces < 0 || s.bounces > 32) {
     return wrongSetting("light is followed through 0 to 32 reflections", "3 are enough outdoors");
   }
@@ -113,6 +116,7 @@ Result<RenderOptions> renderOptions(const PictureSettings& s, const Scene& scene
   o.fov = s.fieldOfView;
   o.pitch = s.pitch;
   o.haziness = s.haziness;
+  o.clouds = s.clouds;
   o.hazeDistance = s.mist;
   o.adaptExposure = !s.exposure;
   o.exposureStops = s.exposure.value_or(0);

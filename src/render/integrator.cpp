@@ -115,9 +115,10 @@ class Tracing {
 
   void miss(const Walk& w) {
     const Vec3f& d = w.ray.direction;
-    Vec3f sky = w.sharp ? light_.shownSky(d) : light_.sky(d);
-    if (stage_.paper && w.sharp) sky = *stage_.paper;
-    if (w.depth == 0 && !stage_.paper) sky += light_.shownSun(d) + light_.shownStars(d);
+    const Vec3f sky = !w.sharp       ? light_.sky(d)
+                      : stage_.paper ? *stage_.paper
+                      : w.depth == 0 ? light_.shown(d)
+                                     : light_.shownSky(d);
     target(w) += withoutFireflies(w.carried * sky, limit_ * 4);
   }
 

@@ -98,7 +98,9 @@ Vec3f towardsSun(double elevation, double azimuth) {
   return toVec3f({flat * sinDeg(azimuth), sinDeg(elevation), -flat * cosDeg(azimuth)});
 }
 
-Light::Light(const RenderOptions& options, double sunElevation, double sunAzimuth) {
+Light::Light(const RenderOptions& options, double sunElevation, double sunAzimuth,
+             std::shared_ptr<const Clouds> clouds)
+    : clouds_(std::move(clouds)) {
   sunDirection = rt::towardsSun(sunElevation, sunAzimuth);
   sunPlan_ = {static_cast<float>(sinDeg(sunAzimuth)), static_cast<float>(-cosDeg(sunAzimuth))};
   groundAlbedo = srgbToLinear(options.groundColor);
@@ -164,6 +166,24 @@ Vec3f Light::sky(const Vec3f& direction) const {
 }
 
 Vec3f Light::shownSky(const Vec3f& direction) const {
+  return behindClouds(shownAir(direction), direction);
+}
+
+Vec3f Light::shown(const Vec3f& direction) const {
+  return behindClouds(shownAir(direction) + shownSun(direction) + shownStars(direction), direction);
+}
+
+Vec3f Light::behindClouds(const Vec3f& behind, const Vec3f& d) const {
+  if (!clouds_) return behind;
+  const Vec3f fromSun{d.x * sunPlan_.x + d.z * sunPlan_.y, d.y,
+                      d.z * sunPlan_.x - d.x * sunPlan_.y};
+  const Clouds::Seen seen = clouds_->seen(fromSun);
+  const Vec3f lit =
+      sun * (seen.sun * Clouds::forward(dot(d, sunDirection))) + skyIrradiance * seen.sky;
+  return behind * seen.clear + lit * shownShare(d.y);
+}
+
+Vec3f Light::shownAir(const Vec3f& direction) const {
   if (!sky_) return uniform_;
   return (radiance(direction, direction.y) * shownScale_ + nightShown_) * shownShare(direction.y);
 }

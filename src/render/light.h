@@ -6,9 +6,11 @@
 // bright morning gives a surface that faces it an irradiance of 1 in red.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "render/clouds.h"
 #include "render/render.h"
 #include "render/sky.h"
 #include "render/vec3f.h"
@@ -20,8 +22,9 @@ Vec3f towardsSun(double elevation, double azimuth);
 
 class Light {
  public:
-  /// `sunElevation` and `sunAzimuth` in degrees.
-  Light(const RenderOptions& options, double sunElevation, double sunAzimuth);
+  /// `sunElevation` and `sunAzimuth` in degrees. `clouds` may be null.
+  Light(const RenderOptions& options, double sunElevation, double sunAzimuth,
+        std::shared_ptr<const Clouds> clouds = nullptr);
 
   /// Towards the sun's centre.
   Vec3f sunDirection;
@@ -44,16 +47,19 @@ class Light {
   Vec3f towardsSun(Vec2f u) const;
   /// What lights surfaces, from a unit direction; below the horizon what an open ground sends up.
   Vec3f sky(const Vec3f& direction) const;
-  /// What the camera and mirrors see of the sky.
+  /// What mirrors show of the sky: air and clouds.
   Vec3f shownSky(const Vec3f& direction) const;
+  /// All that the camera sees there: the stars and the sun's disc with the glare about it, too.
+  Vec3f shown(const Vec3f& direction) const;
   /// The same at the horizon below or above a direction: what distance fades into.
   Vec3f horizon(const Vec3f& direction) const;
-  /// What the camera sees of the stars.
-  Vec3f shownStars(const Vec3f& direction) const;
-  /// What the camera sees of the sun's disc and the glare about it.
-  Vec3f shownSun(const Vec3f& direction) const;
 
  private:
+  Vec3f shownAir(const Vec3f& direction) const;
+  Vec3f shownStars(const Vec3f& direction) const;
+  Vec3f shownSun(const Vec3f& direction) const;
+  /// What lies behind the clouds, seen with them before it.
+  Vec3f behindClouds(const Vec3f& behind, const Vec3f& direction) const;
   Vec3f radiance(const Vec3f& direction, float up) const;
   /// Of the compass angle between a direction and the sun.
   float cosineFromSun(const Vec3f& direction) const;
@@ -62,6 +68,7 @@ class Light {
   float shownShare(float up) const;
 
   std::optional<Sky> sky_;
+  std::shared_ptr<const Clouds> clouds_;
   /// What horizon() says, by kHorizonSteps steps of the square root of the sine of half the angle
   /// from the sun: finer towards it. All that a camera sees through haze asks for it.
   std::vector<Vec3f> horizon_;

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
+#include <mutex>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -151,6 +153,9 @@ struct Renderer::Impl {
   double treeSeconds = making.lap();
   std::vector<rt::Vec3f> points;
   double front;
+  /// Of the last picture that had some: the frames of a walk share them.
+  mutable std::mutex cloudsMaking;
+  mutable std::shared_ptr<const rt::Clouds> clouds;
 
   Impl(const Scene& s, const TextureSource* textures)
       : scene(s),
@@ -183,7 +188,17 @@ struct Renderer::Impl {
     if (o.look == PictureLook::Clay) options.groundColor = {0.78, 0.77, 0.75};
     if (drawn) options.haziness = 1;
     const auto [elevation, azimuth] = sun(o);
-    return {options, elevation, azimuth};
+    const bool shows = o.look == PictureLook::Photo || o.look == PictureLook::Clay;
+    return {options, elevation, azimuth, shows ? cloudsOf(o, elevation) : nullptr};
+  }
+
+  std::shared_ptr<const rt::Clouds> cloudsOf(const RenderOptions& o, double sunElevation) const {
+    if (!(o.clouds > 0) || o.uniformSky) return nullptr;
+    const std::lock_guard lock(cloudsMaking);
+    if (!clouds || !clouds->isFor(o.clouds, sunElevation)) {
+      clouds = std::make_shared<const rt::Clouds>(o.clouds, sunElevation);
+    }
+    return clouds;
   }
 
   std::pair<double, double> sun(const RenderOptions& o) const {

@@ -104,6 +104,9 @@ struct RenderOptions {
   std::optional<double> sunAzimuth;
   /// Dust in the air: 1 on a clear day, 5 on a milky one.
   double haziness = 1;
+  /// The share of the sky that clouds hide, 0 to 1. They are seen by the camera and in mirrors, and
+  /// stand as they do about the sun wherever that is.
+  double clouds = 0;
   /// Replaces sun and sky by light of this radiance from everywhere (for tests and for models of
   /// materials); the ground stays as asked for.
   std::optional<Vec3> uniformSky;

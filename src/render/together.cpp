@@ -63,8 +63,7 @@ class Bundle {
  private:
   void miss(size_t i) {
     const Vec3f& d = starts_[i].ray.direction;
-    const Vec3f sky = stage_.paper ? *stage_.paper
-                                   : light_.shownSky(d) + light_.shownSun(d) + light_.shownStars(d);
+    const Vec3f sky = stage_.paper ? *stage_.paper : light_.shown(d);
     results_[i].direct = withoutFireflies(sky, limit_ * 4);
   }
 

@@ -83,6 +83,9 @@ Result<Exported> collected(const std::string& folder, const std::string& format)
   return Exported{zipped(contents), format + ".zip"};
 }
 
+// The share of the sky that clouds hide in pictures: a fair day.
+constexpr double kFairClouds = 0.25;
+
 // The numbers of a JSON array, if there are `count` and all lie within the bounds.
 bool readNumbers(const std::string& text, size_t count, double least, double most,
                  std::vector<double>& out) {
@@ -101,6 +104,7 @@ bool readNumbers(const std::string& text, size_t count, double least, double mos
 Result<PictureSettings> pictureOf(const std::string& camera, const std::string& size,
                                   const std::string& sun) {
   PictureSettings out;
+  out.clouds = kFairClouds;
   std::vector<double> numbers;
   if (!size.empty()) {
     if (!readNumbers(size, 2, 16, 4096, numbers)) {
