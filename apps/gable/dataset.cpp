@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "derive_settings.h"
 #include "gable/names.h"
+#include "memory.h"
 #include "progress.h"
 
 namespace {
@@ -64,6 +65,7 @@ int statusOfDataset(const gable::DatasetResult& result) {
 }  // namespace
 
 int runDataset(const DatasetArguments& arguments) {
+  keepMemory();
   gable::DatasetSettings settings;
   if (const int status = datasetSettings(arguments, settings)) return status;
   Inputs inputs;

@@ -11,3 +11,9 @@ void useLargePages() {
   mi_option_set_enabled_default(mi_option_large_os_pages, true);
 #endif
 }
+
+void keepMemory() {
+#ifdef GABLE_WITH_MIMALLOC
+  mi_option_set_enabled_default(mi_option_allow_decommit, false);
+#endif
+}

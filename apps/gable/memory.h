@@ -6,3 +6,8 @@
 /// the system gives out and takes back a tenth as many, for some more memory.
 /// MIMALLOC_LARGE_OS_PAGES=0 keeps the small ones.
 void useLargePages();
+
+/// Keeps what is freed from now on for what comes next, where mimalloc is installed: for work that
+/// asks for the same large blocks again and again, such as the pictures of a data set. The system
+/// need not clear them each time. MIMALLOC_ALLOW_DECOMMIT=1 gives them back.
+void keepMemory();

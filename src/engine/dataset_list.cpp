@@ -23,20 +23,28 @@ class List {
     sink_("{\"info\":{\"description\":\"A data set of Gable\"},\n\"categories\":[");
     writeCategories();
     sink_(coco ? "],\n\"images\":[" : "],\n\"items\":[");
-    if (auto e = forEachItem([&](const JsonValue& item) { coco ? image(item) : camera(item); })) {
-      return e;
-    }
+    const auto about = [&](const JsonValue& item) { coco ? image(item) : camera(item); };
+    if (auto e = forEachItem(headOf, about)) return e;
     if (coco) {
       sink_("],\n\"annotations\":[");
-      if (auto e = forEachItem([&](const JsonValue& item) { annotations(item); })) return e;
+      const auto whole = [](const std::string& text) { return text; };
+      if (auto e = forEachItem(whole, [&](const JsonValue& item) { annotations(item); })) return e;
     }
     sink_("]}\n");
     return std::nullopt;
   }
 
  private:
-  template <class Use>
-  std::optional<Error> forEachItem(Use&& use) {
+  // An item without its annotations, which are the last of its members and nearly all of its text.
+  // What is cut off there is read when they are.
+  static std::string headOf(const std::string& text) {
+    const size_t end = text.find(",\"annotations\":");
+    return end == std::string::npos ? text : text.substr(0, end) + "}";
+  }
+
+  /// Of each item, what `part` takes of its text.
+  template <class Part, class Use>
+  std::optional<Error> forEachItem(Part&& part, Use&& use) {
     first_ = true;
     for (uint64_t seed = 0; seed < settings_.count; ++seed) {
       for (uint32_t c = 0; c < settings_.cameras; ++c) {
@@ -44,7 +52,7 @@ class List {
         const std::string path = folder_.path() + folder_.item(seed, c) + "/item.json";
         const Result<std::string> text = readFile(path);
         if (!text.ok()) return text.error();
-        const Result<JsonValue> json = parseJson(text.value());
+        const Result<JsonValue> json = parseJson(part(text.value()));
         if (!json.ok()) {
           return Error{"dataset-folder", "'" + path + "' is damaged: " + json.error().message,
                        "remove the folder of the item, and run again"};

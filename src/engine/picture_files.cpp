@@ -51,11 +51,12 @@ void PictureFiles::writeFloats(const std::string& name, const std::vector<float>
   std::string bytes =
       "Pf\n" + std::to_string(picture_.width) + " " + std::to_string(picture_.height) + "\n-1.0\n";
   const size_t width = static_cast<size_t>(picture_.width);
-  bytes.reserve(bytes.size() + 4 * values.size());
+  size_t at = bytes.size();
+  bytes.resize(at + 4 * values.size());
   for (size_t y = static_cast<size_t>(picture_.height); y-- > 0;) {
     for (size_t x = 0; x < width; ++x) {
       const uint32_t word = std::bit_cast<uint32_t>(values[y * width + x]);
-      for (int k = 0; k < 4; ++k) bytes += static_cast<char>(word >> (8 * k) & 0xff);
+      for (int k = 0; k < 4; ++k) bytes[at++] = static_cast<char>(word >> (8 * k) & 0xff);
     }
   }
   write(name, bytes);

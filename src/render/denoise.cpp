@@ -107,6 +107,14 @@ struct Guide {
   size_t index(int x, int y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
   }
+  /// Whether the block of pixels that begins there sees anything but sky.
+  bool isAnyKnown(int x, int y) const {
+    const size_t first = index(x, y), count = std::min(kBlock, static_cast<size_t>(width - x));
+    for (size_t i = first; i < first + count; ++i) {
+      if (known[i] > 0) return true;
+    }
+    return false;
+  }
 
  private:
   /// The variance about a pixel: single estimates of few samples are unreliable.
@@ -288,6 +296,7 @@ class Fits {
 /// A pass over a row of pixels.
 GABLE_WIDE void smoothRow(const Guide& guide, Planes& next, int reach, int gap, int y) {
   for (int x = 0; x < guide.width; x += static_cast<int>(kBlock)) {
+    if (!guide.isAnyKnown(x, y)) continue;
     const Fits fits(guide, reach, gap, x, y);
     const size_t first = guide.index(x, y);
     for (size_t k = 0; k < static_cast<size_t>(fits.count()); ++k) {

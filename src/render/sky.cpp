@@ -7,6 +7,7 @@
 
 #include "render/sky.h"
 
+#include <array>
 #include <optional>
 
 #include "math/trig.h"
@@ -210,28 +211,52 @@ float miePhase(float cosine) {
   return 3 / (8 * kPif) * (1 - g2) * (1 + cosine * cosine) / ((2 + g2) * away * std::sqrt(away));
 }
 
-Vec3f seen(const Atmosphere& air, const Vec3f& direction, const Vec3f& toSun) {
-  constexpr int kSteps = 48;
-  const Place eye{kEye, direction.y};
-  const float way = eye.meetsGround() ? eye.toGround() : eye.toTop();
-  const float cosine = dot(direction, toSun);
-  const float rayleigh = rayleighPhase(cosine), mie = miePhase(cosine);
-  Vec3f light, through = kOne;
+/// A step of the way that one looks along through the air: all of it that does not depend on where
+/// the sun is.
+struct Step {
+  float t = 0, radius = 0;
+  Air air;
+  /// Shares of light: what the step takes, and what gets from it to the eye.
+  Vec3f taken, through;
+};
+constexpr int kSteps = 48;
+using Way = std::array<Step, kSteps>;
+
+/// The way at a sine of elevation.
+Way wayAt(const Atmosphere& air, float up) {
+  const Place eye{kEye, up};
+  const float length = eye.meetsGround() ? eye.toGround() : eye.toTop();
+  Way way;
+  Vec3f through = kOne;
   float before = 0;
   for (int i = 0; i < kSteps; ++i) {
     // Short steps first: most of the air is near.
     const float share = static_cast<float>(i + 1) / kSteps;
-    const float end = way * share * share, step = end - before, t = (end + before) / 2;
+    const float end = length * share * share, step = end - before;
+    Step& s = way[static_cast<size_t>(i)];
+    s.t = (end + before) / 2;
     before = end;
-    const Place p = eye.along(t);
-    const Air a = air.at(p.radius);
-    const float sunUp = Atmosphere::sunUpAt(kEye, direction, t, toSun);
-    const Vec3f once =
-        (a.rayleigh * rayleigh + kOne * (a.mie * mie)) * air.clearness({p.radius, sunUp});
-    const Vec3f often = (a.rayleigh + kOne * a.mie) * air.multiple(p.radius, sunUp);
-    const Vec3f kept = decay(a.extinction * -step);
-    light += through * (kOne - kept) * Atmosphere::over(once + often, a.extinction);
+    s.radius = eye.along(s.t).radius;
+    s.air = air.at(s.radius);
+    const Vec3f kept = decay(s.air.extinction * -step);
+    s.taken = kOne - kept;
+    s.through = through;
     through *= kept;
+  }
+  return way;
+}
+
+Vec3f seen(const Atmosphere& air, const Way& way, const Vec3f& direction, const Vec3f& toSun) {
+  const float cosine = dot(direction, toSun);
+  const float rayleigh = rayleighPhase(cosine), mie = miePhase(cosine);
+  Vec3f light;
+  for (const Step& s : way) {
+    const Air& a = s.air;
+    const float sunUp = Atmosphere::sunUpAt(kEye, direction, s.t, toSun);
+    const Vec3f once =
+        (a.rayleigh * rayleigh + kOne * (a.mie * mie)) * air.clearness({s.radius, sunUp});
+    const Vec3f often = (a.rayleigh + kOne * a.mie) * air.multiple(s.radius, sunUp);
+    light += s.through * s.taken * Atmosphere::over(once + often, a.extinction);
   }
   return light;
 }
@@ -253,10 +278,11 @@ Sky::Sky(double sunElevation, double haze) {
   for (int j = 0; j <= kUps; ++j) {
     const float r = static_cast<float>(j) / kUps, up = r * r;
     const float flat = std::sqrt(std::max(0.0f, 1 - up * up));
+    const Way way = wayAt(air, up);
     for (int i = 0; i <= kAsides; ++i) {
       const float s = static_cast<float>(i) / kAsides, a = kPif * s * s;
       const Vec3f direction{flat * std::cos(a), up, flat * std::sin(a)};
-      table_[static_cast<size_t>(j * (kAsides + 1) + i)] = seen(air, direction, toSun);
+      table_[static_cast<size_t>(j * (kAsides + 1) + i)] = seen(air, way, direction, toSun);
     }
   }
   // The integral of radiance * sine over the hemisphere, by rings of equal sine squared.

@@ -8,6 +8,7 @@
 #include "render/surface.h"
 
 #include <algorithm>
+#include <bit>
 #include <iterator>
 #include <map>
 
@@ -128,6 +129,35 @@ const ByteTables& byteTables() {
 }
 float decodedByte(uint8_t v) { return byteTables().decoded[v]; }
 
+/// Of linear light, by the least light of each byte: a search takes less than a power.
+class SrgbBytes {
+ public:
+  SrgbBytes() {
+    for (size_t i = 0; i < least_.size(); ++i) least_[i] = leastOf(static_cast<uint8_t>(i + 1));
+  }
+  uint8_t of(float linear) const {
+    return static_cast<uint8_t>(std::upper_bound(least_.begin(), least_.end(), linear) -
+                                least_.begin());
+  }
+
+ private:
+  static uint8_t byteOf(float linear) {
+    return static_cast<uint8_t>(255 * linearToSrgb(linear) + 0.5f);
+  }
+  /// Halves what lies between the bits of two numbers: those above 0 are in the order of their
+  /// bits.
+  static float leastOf(uint8_t byte) {
+    uint32_t below = 0, at = std::bit_cast<uint32_t>(1.0f);
+    while (at - below > 1) {
+      const uint32_t middle = below + (at - below) / 2;
+      (byteOf(std::bit_cast<float>(middle)) < byte ? below : at) = middle;
+    }
+    return std::bit_cast<float>(at);
+  }
+
+  std::array<float, 255> least_;
+};
+
 /// Means of cells of pixels, as light and written as sRGB again; what is no colour differs by less
 /// than its own texels do.
 TextureImage coarseOf(const TextureImage& image) {
@@ -142,6 +172,7 @@ TextureImage coarseOf(const TextureImage& image) {
   const uint32_t down = std::min(kMost, (image.height + out.height - 1) / out.height);
   const uint32_t across = std::min(kMost, (image.width + out.width - 1) / out.width);
   const float share = 1 / static_cast<float>(down * across);
+  static const SrgbBytes srgb;
   for (uint32_t y = 0; y < out.height; ++y) {
     for (uint32_t x = 0; x < out.width; ++x) {
       float sum[4] = {};
@@ -156,7 +187,7 @@ TextureImage coarseOf(const TextureImage& image) {
       }
       for (size_t k = 0; k < 4; ++k) {
         const float mean = sum[k] * share;
-        out.rgba.push_back(static_cast<uint8_t>(255 * (k < 3 ? linearToSrgb(mean) : mean) + 0.5f));
+        out.rgba.push_back(k < 3 ? srgb.of(mean) : static_cast<uint8_t>(255 * mean + 0.5f));
       }
     }
   }
@@ -191,9 +222,9 @@ SurfaceMaterial surfaceOf(const Material& m) {
 
 void TextureTable::add(const TextureImage& image) {
   images.push_back(&image);
-  bool alpha = false;
-  for (size_t i = 3; i < image.rgba.size() && !alpha; i += 4) alpha = image.rgba[i] < 255;
-  hasAlpha.push_back(alpha);
+  uint8_t all = 255;
+  for (size_t i = 3; i < image.rgba.size(); i += 4) all &= image.rgba[i];
+  hasAlpha.push_back(all < 255);
   coarse.push_back(coarseOf(image));
 }
 
