@@ -23,6 +23,7 @@
 #include "base/hash.h"
 #include "base/work.h"
 #include "scene/flatten.h"
+#include "tiles/closing.h"
 #include "tiles/panels.h"
 #include "tiles/plates.h"
 #include "tiles/sheets.h"
@@ -129,6 +130,9 @@ class Coarsener {
       i = end;
     }
     join();
+    dropFlat();
+    missed_ = std::max(missed_, closeHoles(from_, tolerance_, out_));
+    dropFeatures();
     out_.error = from_.error + std::max(tolerance_ * kThin, missed_) + shift_;
     return std::move(out_);
   }
@@ -507,7 +511,6 @@ class Coarsener {
       shift_ = std::max(shift_, length(target - out_.vertices[v]));
       out_.vertices[v] = target;
     }
-    dropFlat();
   }
 
   // Leaves out triangles without area, corners that none has, and parts without triangles.
@@ -549,7 +552,6 @@ class Coarsener {
     out_.parts.swap(parts);
     out_.vertices.swap(vertices);
     out_.triangles.swap(triangles);
-    dropFeatures();
   }
 
   // Those of which nothing is left to see, and to pick.

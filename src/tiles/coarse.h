@@ -16,6 +16,7 @@
 //      change to a finer tile before an error covers sixteen pixels, so thinner ones cover less
 //      than two.
 //   4. Corners in one cell of half the tolerance become one, and triangles without area go.
+//   5. Holes through which one would look into a house are covered (tiles/closing.h).
 // `error` is what that came to, in metres: how far what was moved or left out is from what is
 // shown, or how long it is where nothing near it is shown. It bounds how far points of the full
 // model are from the coarse one, other than those of things narrower than an eighth of it.

@@ -305,6 +305,56 @@ TEST(Coarse, levelsOfAFrontHaveNoHoles) {
   }
 }
 
+// Whether someone before the front, which looks along z, sees a part at a point of it, at most
+// `depth` behind its plane.
+bool isSeenAt(const CoarseModel& m, double x, double y, double depth) {
+  for (const CoarsePart& p : m.parts) {
+    for (uint32_t t = 0; t < p.triangleCount; ++t) {
+      const auto at = [&](size_t k) {
+        return m.vertices[p.firstVertex + m.triangles[p.firstTriangle + t][k]];
+      };
+      const Vec3 a = at(0), b = at(1), c = at(2);
+      const auto twice = [](const Vec3& u, const Vec3& v, double px, double py) {
+        return (v.x - u.x) * (py - u.y) - (v.y - u.y) * (px - u.x);
+      };
+      const double whole = twice(a, b, c.x, c.y);
+      if (!(std::abs(whole) > 1e-9)) continue;
+      const double u = twice(b, c, x, y) / whole, v = twice(c, a, x, y) / whole, w = 1 - u - v;
+      if (std::min({u, v, w}) < -1e-9) continue;
+      if (u * a.z + v * b.z + w * c.z >= -depth) return true;
+    }
+  }
+  return false;
+}
+
+// A wall of large pieces around windows in reveals, each of a pane and a sill that nothing lies
+// behind: no level opens them, whatever becomes of the pane.
+TEST(Coarse, windowsInRevealsStayClosed) {
+  for (const double wide : {0.5, 0.8, 1.1}) {
+    Place place;
+    for (int i = 0; i < 4; ++i) {
+      const double x = 4.0 * i;
+      place.add({x, 0, 0}, {4 - wide, 6, 0});
+      place.add({x + 4 - wide, 0, 0}, {wide, 2, 0});
+      place.add({x + 4 - wide, 2, 0}, {wide, 0.1, 0.15});
+      place.add({x + 4 - wide, 2.1, -0.12}, {wide, 1.4, 0}, 1);
+      place.add({x + 4 - wide, 3.5, 0}, {wide, 2.5, 0});
+    }
+    for (const double tolerance : {0.4, 0.7, 1.0}) {
+      CoarseModel m = place.coarse(tolerance);
+      for (const double coarser : {0.0, 2.5}) {
+        if (coarser > 0) m = coarsened(m, coarser * tolerance);
+        for (double x = 3.11; x < 13; x += 0.17) {
+          for (double y = 2.2; y < 3.4; y += 0.13) {
+            ASSERT_TRUE(isSeenAt(m, x, y, tolerance * (1 + coarser)))
+                << wide << " wide, " << tolerance << " and " << coarser << ", at " << x << " " << y;
+          }
+        }
+      }
+    }
+  }
+}
+
 // A front of strips with windows of frames and panes, and doors: 24 m by 12 m.
 Place frontOfWindows() {
   Place place;

@@ -267,17 +267,7 @@ class PanelMaker {
     p.box.include(Vec3{r.box.min.x, r.box.min.y, r.depth()});
     p.box.include(Vec3{r.box.max.x, r.box.max.y, r.depth()});
     out_.offset = std::max(out_.offset, (r.far - r.near) / 2);
-    CoarseModel& model = out_.model;
-    p.firstVertex = static_cast<uint32_t>(model.vertices.size());
-    p.firstTriangle = static_cast<uint32_t>(model.triangles.size());
-    p.vertexCount = 4;
-    p.triangleCount = 2;
-    const Vec3 &low = p.box.min, &high = p.box.max;
-    for (const Vec3& v : {low, Vec3{high.x, low.y, low.z}, high, Vec3{low.x, high.y, low.z}}) {
-      model.vertices.push_back(frame.point(v));
-    }
-    model.triangles.push_back({0, 1, 2});
-    model.triangles.push_back({0, 2, 3});
+    addFlat(out_.model, p);
     panels_.push_back(p);
   }
 

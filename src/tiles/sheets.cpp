@@ -42,6 +42,19 @@ std::array<Vec3, 8> cornersOf(const CoarsePart& p) {
   return out;
 }
 
+void addFlat(CoarseModel& model, CoarsePart& p) {
+  p.firstVertex = static_cast<uint32_t>(model.vertices.size());
+  p.firstTriangle = static_cast<uint32_t>(model.triangles.size());
+  p.vertexCount = 4;
+  p.triangleCount = 2;
+  const Vec3 &low = p.box.min, &high = p.box.max;
+  for (const Vec3& v : {low, Vec3{high.x, low.y, low.z}, high, Vec3{low.x, high.y, low.z}}) {
+    model.vertices.push_back(p.frame.point(v));
+  }
+  model.triangles.push_back({0, 1, 2});
+  model.triangles.push_back({0, 2, 3});
+}
+
 double shownOf(const CoarseModel& model, const CoarsePart& p) {
   double area = 0;
   for (uint32_t t = 0; t < p.triangleCount; ++t) {

@@ -27,6 +27,10 @@ Vec3 axisOf(const Frame& frame, size_t axis);
 /// Of the box of a part, in the world.
 std::array<Vec3, 8> cornersOf(const CoarsePart& p);
 
+/// Gives a part whose box is flat across its z the triangles of that rectangle, which looks along
+/// z.
+void addFlat(CoarseModel& model, CoarsePart& p);
+
 /// Of the triangles of a part, in square metres.
 double shownOf(const CoarseModel& model, const CoarsePart& p);
 
