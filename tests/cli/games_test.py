@@ -5,12 +5,13 @@
 
 A reader of its own looks at nodes, meshes and triangles of what is written."""
 import json
+import math
 import struct
 import sys
 import unittest
 from pathlib import Path
 
-from cli_test import USAGE, Case
+from cli_test import ROOT, USAGE, Case
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "written"))
 import model_check  # noqa: E402
@@ -26,6 +27,21 @@ Court --> extrude(6) comp(f) { side : Wall. }
 Lawn --> color("#338833") Grass.
 Lot --> case startRule == "Court" : Court case startRule == "Lawn" : Lawn else : House
 attr startRule = "House"
+"""
+# A shop with a flat above: windows in reveals with sills, nothing behind them, and awnings.
+SHOP = """Lot --> extrude(6.4) comp(f) { front : Front | right : Front | side : Wall | top : roofGable(38, 0.35, 0.25) Tiles. }
+Front --> split(y) { 3.6 : Shop | ~1 : split(x) { ~0.8 : Wall | { ~2.2 : Bay | ~0.8 : Wall }* } }
+Shop --> split(y) { ~1 : Ground | 0.7 : extrude(0.12) color("#6b3f1d") Sign. }
+Ground --> split(x) { 0.3 : Pier. | ~1 : ShopWindow | 1.3 : t(0, 0, -0.15) color("#3c5a46") Door. | 0.3 : Pier. }
+ShopWindow -->
+  [ t(0, scope.sy - 0.3, 0) s('1, 0.6, 1.1) primitiveCube() color("#a83232") Cloth. ]
+  split(y) { 0.5 : Stall. | ~1 : t(0, 0, -0.1) split(x) { 0.06 : Frame | { ~1.4 : Pane | 0.06 : Frame }* } }
+Bay --> split(x) { ~1 : Wall | 1.1 : Column | ~1 : Wall }
+Column --> split(y) { 0.8 : Wall | 0.1 : Sill | 1.4 : t(0, 0, -0.12) setback(0.07) { all : Frame | remainder : Pane } | ~1 : Wall }
+Sill --> s('1.1, '1, '1) center(x) extrude(0.15) Sill.
+Frame --> extrude(0.06) Frame.
+Pane --> color("#54707c") Pane.
+Wall --> color("#a9674d") Wall.
 """
 LOTS = (("House-col 1", "House", 0, 0, 20, 10), ("House-col 1", "House", 40, 0, 20, 10), ("Yard", "Court", 80, 0, 30, 30),
         ("Lawn", "Lawn", 120, 0, 10, 10))
@@ -79,6 +95,68 @@ class Glb:
         """What closed triangles enclose."""
         return sum(a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
                    a[2] * (b[0] * c[1] - b[1] * c[0]) for a, b, c in self.triangles(node)) / 6
+
+
+def seen(triangles, axes, low, step, width, height):
+    """What is seen along the last of the axes, by cell: the depth, and 1 for a front, -1 for a back, 0 for nothing."""
+    depth, side = [-1e9] * (width * height), [0] * (width * height)
+    edge = 1e-4
+    for triangle in triangles:
+        at = [[sum(p[k] * a[k] for k in range(3)) for a in axes] for p in triangle]
+        (ax, ay, az), (bx, by, bz), (cx, cy, cz) = [((x - low[0]) / step - 0.5, (y - low[1]) / step - 0.5, z) for x, y, z in at]
+        whole = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+        if abs(whole) < 1e-9:
+            continue
+        for y in range(max(0, math.ceil(min(ay, by, cy) - edge)), min(height - 1, math.floor(max(ay, by, cy) + edge)) + 1):
+            for x in range(max(0, math.ceil(min(ax, bx, cx) - edge)), min(width - 1, math.floor(max(ax, bx, cx) + edge)) + 1):
+                a = ((cx - bx) * (y - by) - (cy - by) * (x - bx)) / whole
+                b = ((ax - cx) * (y - cy) - (ay - cy) * (x - cx)) / whole
+                z, i = a * az + b * bz + (1 - a - b) * cz, y * width + x
+                if min(a, b, 1 - a - b) >= -edge and z > depth[i] + (edge if whole < 0 else -edge):
+                    depth[i], side[i] = z, 1 if whole > 0 else -1
+    return depth, side
+
+
+def views(full):
+    """From six sides: the axes, where the image begins, and its size, 120 cells over the diagonal of the model."""
+    points = {p for t in full for p in t}
+    low, high = ([f(p[k] for p in points) for k in range(3)] for f in (min, max))
+    step = math.dist(low, high) / 120
+    for turn, up in ((0, 0), (90, 0), (180, 0), (270, 0), (40, 0.5), (220, 0.5)):
+        sine, cosine = math.sin(math.radians(turn)), math.cos(math.radians(turn))
+        u, w = (cosine, 0, -sine), (sine * math.cos(up), math.sin(up), cosine * math.cos(up))
+        v = (w[1] * u[2] - w[2] * u[1], w[2] * u[0] - w[0] * u[2], w[0] * u[1] - w[1] * u[0])
+        flat = [[sum(p[k] * a[k] for k in range(3)) for p in points] for a in (u, v)]
+        yield (u, v, w), [min(f) for f in flat], step, *(int((max(f) - min(f)) / step) + 1 for f in flat)
+
+
+def holes(full, level, tolerance):
+    """The share of points of the full model behind which one looks into the level, or through it, in holes wider than a quarter of
+    the tolerance."""
+    found = fronts = 0
+    for axes, low, step, width, height in views(full):
+        depth, side = seen(full, axes, low, step, width, height)
+        coarse, coarse_side = seen(level, axes, low, step, width, height)
+        reach, slit = math.ceil(tolerance / step), max(1, round(tolerance / 8 / step))
+
+        def around(i, by):
+            x, y = i % width, i // width
+            return [(y + v) * width + x + u for v in range(-by, by + 1) for u in range(-by, by + 1)
+                    if 0 <= x + u < width and 0 <= y + v < height]
+
+        open_ = set()
+        for i in (i for i in range(width * height) if side[i] > 0):
+            fronts += 1
+            if coarse_side[i] < 0:
+                is_open = coarse[i] < depth[i] - tolerance
+            else:
+                # At its sides a level may be narrower by the tolerance.
+                near = around(i, reach) if coarse_side[i] == 0 else []
+                is_open = len(near) == (2 * reach + 1) ** 2 and all(side[n] > 0 for n in near)
+            if is_open:
+                open_.add(i)
+        found += sum(all(n in open_ for n in around(i, slit)) for i in open_)
+    return found / fronts
 
 
 class Games(Case):
@@ -160,6 +238,19 @@ class Games(Case):
             self.assertAlmostEqual(full[1][k], coarse[1][k], delta=2)
         # What saves nothing is the finer level once more.
         self.assertEqual(glb.node("Yard_LOD1")["mesh"], glb.node("Yard_LOD0")["mesh"])
+
+    def testLevelsHaveNoHoles(self):
+        self.put("shop.cga", SHOP)
+        examples = ROOT / "examples"
+        for rules, lot in ((self.folder / "shop.cga", "12x10"), (examples / "rowhouse/rowhouse.cga", "8x14"),
+                           (examples / "halftimber/halftimber.cga", "10x20"), (examples / "suburb_house/suburb_house.cga", "22x30")):
+            self.run_gable("generate", str(rules), "--lot", lot, "-o", "h.glb", "--names", "unique", "--lods", "2", "--lod-form", "files",
+                           "--instancing", "shapes")
+            full, *levels = ([t for n in glb.top for t in glb.triangles(n)]
+                             for glb in (Glb(self.folder / f"h{end}.glb") for end in ("", "_LOD1", "_LOD2")))
+            size = math.dist(*([f(p[k] for t in full for p in t) for k in range(3)] for f in (min, max)))
+            for level, fineness in zip(levels, (50, 20)):
+                self.assertLess(holes(full, level, size / fineness), 1 / 5000, (rules.name, fineness))
 
     def testMsftLodNamesNodesOutsideTheScene(self):
         glb, _ = self.made("--lods", "2", "--lod-form", "msft", "--instancing", "shapes")
