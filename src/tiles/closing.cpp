@@ -20,11 +20,11 @@ namespace gable {
 namespace {
 
 // Cells over the tolerance, and the most along a side of an image.
-constexpr double kCellsPerTolerance = 8;
+constexpr double kCellsPerTolerance = 4;
 constexpr double kMostCells = 256;
 // Images of a feature; those whose directions have a larger cosine show nearly the same, and those
 // that look up, with a smaller height, what nobody sees.
-constexpr size_t kMostDirections = 10;
+constexpr size_t kMostDirections = 8;
 constexpr double kSameDirection = 0.94, kLowest = -0.3;
 // Normals are counted in so many steps.
 constexpr double kNormalSteps = 16;
@@ -36,7 +36,7 @@ constexpr double kFlat = 0.25;
 // Of the looks in a rectangle; narrower parts than such a share of the tolerance take on any.
 constexpr double kAlike = 0.15, kFrame = 0.25;
 // A rectangle of fewer cells covers no hole worth two triangles.
-constexpr int64_t kFewestCells = 12;
+constexpr int64_t kFewestCells = 3;
 
 using Triangle = std::array<Vec3, 3>;
 
