@@ -132,16 +132,24 @@ class DepthImage {
     };
     for (double y = first(low); y <= last(high, height_); ++y) {
       work();
-      for (double x = first(left); x <= last(right, width_); ++x) {
-        // Barycentric, times the area.
-        const auto side = [&](size_t a, size_t b) {
-          return ((t[b].x - t[a].x) * (y - t[a].y) - (t[b].y - t[a].y) * (x - t[a].x)) / twice;
-        };
-        const double a = side(1, 2), b = side(2, 0), c = side(0, 1);
-        if (std::min({a, b, c}) < -kEdge) continue;
-        see(static_cast<size_t>(static_cast<int64_t>(y) * width_ + static_cast<int64_t>(x)),
-            {a * t[0].z + b * t[1].z + c * t[2].z, facing, &part});
+      double from = first(left), to = last(right, width_);
+      // The depth along the row, and where the row is inside all three sides.
+      double base = 0, slope = 0;
+      for (size_t k = 0; k < 3; ++k) {
+        // The share of a corner: what the side across from it leaves.
+        const Vec3 &a = t[(k + 1) % 3], &b = t[(k + 2) % 3];
+        const double per = -(b.y - a.y) / twice;
+        const double share = ((b.x - a.x) * (y - a.y)) / twice - per * a.x;
+        if (per > 0) from = std::max(from, std::ceil((-kEdge - share) / per));
+        if (per < 0) to = std::min(to, std::floor((-kEdge - share) / per));
+        if (per == 0 && share < -kEdge) to = -1;
+        base += share * t[k].z;
+        slope += per * t[k].z;
       }
+      if (!(from <= to)) continue;
+      size_t cell =
+          static_cast<size_t>(static_cast<int64_t>(y) * width_ + static_cast<int64_t>(from));
+      for (double x = from; x <= to; ++x) see(cell++, {base + slope * x, facing, &part});
     }
   }
 

@@ -18,8 +18,8 @@ namespace gable {
 /// Adds what closes `coarse`, whose parts count the features of `fine`, from above and all sides.
 /// Holes narrower than a quarter of the tolerance may stay, and features longer than 256 times the
 /// tolerance are left as they are. Returns how far the farthest of what a rectangle stands for is
-/// from its plane. O(triangles + 256 * 256) for each feature and direction, of which there are eight
-/// at most.
+/// from its plane. O(triangles + 256 * 256) for each feature and direction, of which there are
+/// eight at most.
 double closeHoles(const CoarseModel& fine, double tolerance, CoarseModel& coarse);
 
 }  // namespace gable
