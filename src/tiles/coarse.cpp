@@ -118,8 +118,8 @@ double distance2(const Vec3& p, const std::array<Vec3, 3>& t) {
 class Coarsener {
  public:
   /// `missed`: how far parts of `from` are from what they stand for already.
-  Coarsener(const CoarseModel& from, double tolerance, double missed)
-      : from_(from), tolerance_(tolerance), side_(tolerance / 2), missed_(missed) {}
+  Coarsener(const CoarseModel& from, double tolerance, double missed, CoarseHoles holes)
+      : from_(from), tolerance_(tolerance), side_(tolerance / 2), missed_(missed), holes_(holes) {}
 
   CoarseModel run() {
     out_.features = from_.features;
@@ -131,7 +131,9 @@ class Coarsener {
     }
     join();
     dropFlat();
-    missed_ = std::max(missed_, closeHoles(from_, tolerance_, out_));
+    if (holes_ == CoarseHoles::Close) {
+      missed_ = std::max(missed_, closeHoles(from_, tolerance_, out_));
+    }
     dropFeatures();
     out_.error = from_.error + std::max(tolerance_ * kThin, missed_) + shift_;
     return std::move(out_);
@@ -570,6 +572,7 @@ class Coarsener {
   double tolerance_, side_;
   /// The farthest of what is not shown from what is, and of a corner from where it was.
   double missed_;
+  CoarseHoles holes_;
   double shift_ = 0;
   CoarseModel out_;
   /// Of a vertex: it is joined with others, stays where it is, or stays and draws others to it.
@@ -678,9 +681,9 @@ CoarseModel partsOf(const TileContent& content, double tolerance, const FinishOf
   return PartMaker(content, tolerance, finishOf).run();
 }
 
-CoarseModel coarsened(const CoarseModel& model, double tolerance) {
+CoarseModel coarsened(const CoarseModel& model, double tolerance, CoarseHoles holes) {
   const Panelled panelled = withPanels(model, tolerance);
-  return Coarsener(panelled.model, tolerance, panelled.offset).run();
+  return Coarsener(panelled.model, tolerance, panelled.offset, holes).run();
 }
 
 }  // namespace gable
