@@ -72,12 +72,9 @@ float lobes(const Vec3f& p, int cells, uint32_t seed) {
     const std::array<int, 3> c{at[0] + k % 3 - 1, at[1] + k / 3 % 3 - 1, at[2] + k / 9 - 1};
     uint32_t h = seed;
     for (const int i : c) h = mix32(h + static_cast<uint32_t>(wrapped(i, cells)));
-    const auto draw = [h](uint32_t n) {
-      return static_cast<float>(mix32(h + n * 0x9e3779b9U) >> 8) * 0x1p-24f;
-    };
-    const Vec3f point{static_cast<float>(c[0]) + draw(1), static_cast<float>(c[1]) + draw(2),
-                      static_cast<float>(c[2]) + draw(3)};
-    const Vec3f d = point - q;
+    const Vec3f corner{static_cast<float>(c[0]), static_cast<float>(c[1]),
+                       static_cast<float>(c[2])};
+    const Vec3f d = corner + Vec3f{drawnBy(h, 1), drawnBy(h, 2), drawnBy(h, 3)} - q;
     nearest = std::min(nearest, dot(d, d));
   }
   return std::max(0.0f, 1 - std::sqrt(nearest));

@@ -220,9 +220,7 @@ Vec3f Light::shownStars(const Vec3f& d) const {
   const uint32_t face = (onX ? 0u : onY ? 2u : 4u) + (w < 0 ? 1u : 0u);
   const uint32_t cell =
       mix32(static_cast<uint32_t>(s) + mix32(static_cast<uint32_t>(t) + mix32(face + 0x5741u)));
-  const auto draw = [cell](uint32_t k) {
-    return static_cast<float>(mix32(cell + k * 0x9e3779b9U) >> 8) * 0x1p-24f;
-  };
+  const auto draw = [cell](uint32_t k) { return drawnBy(cell, k); };
   if (draw(1) >= kStarShare) return {};
   // A cell is this wide where it is, in radians.
   const float wide = 2 * w * w / kStarCells;

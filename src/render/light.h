@@ -51,7 +51,7 @@ class Light {
   Vec3f shownSky(const Vec3f& direction) const;
   /// All that the camera sees there: the stars and the sun's disc with the glare about it, too.
   Vec3f shown(const Vec3f& direction) const;
-  /// The same at the horizon below or above a direction: what distance fades into.
+  /// The air at the horizon below or above a direction: what distance fades into.
   Vec3f horizon(const Vec3f& direction) const;
 
  private:

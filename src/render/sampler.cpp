@@ -45,8 +45,6 @@ constexpr uint32_t sobolSecondReversed(uint32_t i) {
   return i;
 }
 
-constexpr float toUnit(uint32_t x) { return static_cast<float>(x >> 8) * 0x1p-24f; }
-
 }  // namespace
 
 Sampler::Sampler(uint32_t x, uint32_t y, uint32_t sample, uint32_t seed)

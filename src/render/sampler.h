@@ -46,4 +46,9 @@ constexpr uint32_t mix32(uint32_t x) {
   return x ^ (x >> 15);
 }
 
+/// A number in [0,1) of the upper 24 bits.
+constexpr float toUnit(uint32_t x) { return static_cast<float>(x >> 8) * 0x1p-24f; }
+/// The k-th of independent numbers in [0,1) that belong to something with that hash.
+constexpr float drawnBy(uint32_t hash, uint32_t k) { return toUnit(mix32(hash + k * 0x9e3779b9U)); }
+
 }  // namespace gable::rt

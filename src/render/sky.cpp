@@ -216,8 +216,8 @@ float miePhase(float cosine) {
 struct Step {
   float t = 0, radius = 0;
   Air air;
-  /// Shares of light: what the step takes, and what gets from it to the eye.
-  Vec3f taken, through;
+  /// The share of light that the step takes and that then gets to the eye.
+  Vec3f share;
 };
 constexpr int kSteps = 48;
 using Way = std::array<Step, kSteps>;
@@ -239,8 +239,7 @@ Way wayAt(const Atmosphere& air, float up) {
     s.radius = eye.along(s.t).radius;
     s.air = air.at(s.radius);
     const Vec3f kept = decay(s.air.extinction * -step);
-    s.taken = kOne - kept;
-    s.through = through;
+    s.share = through * (kOne - kept);
     through *= kept;
   }
   return way;
@@ -256,7 +255,7 @@ Vec3f seen(const Atmosphere& air, const Way& way, const Vec3f& direction, const 
     const Vec3f once =
         (a.rayleigh * rayleigh + kOne * (a.mie * mie)) * air.clearness({s.radius, sunUp});
     const Vec3f often = (a.rayleigh + kOne * a.mie) * air.multiple(s.radius, sunUp);
-    light += s.through * s.taken * Atmosphere::over(once + often, a.extinction);
+    light += s.share * Atmosphere::over(once + often, a.extinction);
   }
   return light;
 }

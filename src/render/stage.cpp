@@ -329,9 +329,7 @@ Vec3f roomLight(float share, const Vec3f& middle, const Vec3f& facet) {
   const uint32_t room =
       mix32(cell((middle.x * n.z - middle.z * n.x) / kRoom) +
             mix32(cell(middle.y / kStorey) + mix32(cell(dot(middle, n) / kRoom + 0.37f))));
-  const auto draw = [&](uint32_t k) {
-    return static_cast<float>(mix32(room + k * 0x9e3779b9U) >> 8) * 0x1p-24f;
-  };
+  const auto draw = [room](uint32_t k) { return drawnBy(room, k); };
   if (draw(1) >= share) return {};
   const Vec3f warm = mix({1, 0.56f, 0.22f}, {1, 0.75f, 0.46f}, draw(2));
   const Vec3f colour = draw(3) < 0.07f ? Vec3f{0.62f, 0.76f, 1} : warm;

@@ -120,8 +120,7 @@ std::vector<uint8_t> toRgba8(const LinearImage& image) {
   for (size_t i = 0; i < pixels; ++i) {
     const Vec3f shown = toneMapped({image.rgb[3 * i], image.rgb[3 * i + 1], image.rgb[3 * i + 2]});
     // One dither value for the three channels keeps grey areas grey.
-    const float dither =
-        static_cast<float>(mix32(static_cast<uint32_t>(i) + 0x51ed27U) >> 8) * 0x1p-24f;
+    const float dither = toUnit(mix32(static_cast<uint32_t>(i) + 0x51ed27U));
     const float channel[3] = {shown.x, shown.y, shown.z};
     for (size_t k = 0; k < 3; ++k) {
       rgba[4 * i + k] =
