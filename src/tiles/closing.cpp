@@ -40,17 +40,10 @@ constexpr int64_t kFewestCells = 3;
 
 using Triangle = std::array<Vec3, 3>;
 
+// Parts of a feature.
 struct Range {
   size_t begin = 0, end = 0;
 };
-
-// The parts of a feature, from `begin` on.
-Range featureAt(const CoarseModel& model, size_t begin) {
-  Range r{begin, begin};
-  const auto& parts = model.parts;
-  while (r.end < parts.size() && parts[r.end].feature == parts[begin].feature) ++r.end;
-  return r;
-}
 
 Triangle triangleOf(const CoarseModel& model, const CoarsePart& p, uint32_t number) {
   const auto& t = model.triangles[p.firstTriangle + number];
@@ -381,7 +374,7 @@ double closeHoles(const CoarseModel& fine, double tolerance, CoarseModel& coarse
   std::vector<CoarsePart> parts, shown;
   size_t at = 0;
   for (size_t begin = 0; begin < fine.parts.size();) {
-    const Range feature = featureAt(fine, begin);
+    const Range feature{begin, endOfFeature(fine.parts, begin)};
     begin = feature.end;
     shown.clear();
     for (;

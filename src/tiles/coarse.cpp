@@ -124,8 +124,7 @@ class Coarsener {
   CoarseModel run() {
     out_.features = from_.features;
     for (size_t i = 0; i < from_.parts.size();) {
-      size_t end = i;
-      while (end < from_.parts.size() && from_.parts[end].feature == from_.parts[i].feature) ++end;
+      const size_t end = endOfFeature(from_.parts, i);
       addFeature(i, end);
       i = end;
     }

@@ -74,8 +74,7 @@ class PanelMaker {
     model.error = from_.error;
     const std::vector<CoarsePart>& parts = from_.parts;
     for (size_t begin = 0; begin < parts.size();) {
-      size_t end = begin;
-      while (end < parts.size() && parts[end].feature == parts[begin].feature) ++end;
+      const size_t end = endOfFeature(parts, begin);
       addFeature(begin, end);
       begin = end;
     }

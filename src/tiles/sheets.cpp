@@ -42,6 +42,12 @@ std::array<Vec3, 8> cornersOf(const CoarsePart& p) {
   return out;
 }
 
+size_t endOfFeature(const std::vector<CoarsePart>& parts, size_t begin) {
+  size_t end = begin;
+  while (end < parts.size() && parts[end].feature == parts[begin].feature) ++end;
+  return end;
+}
+
 void addFlat(CoarseModel& model, CoarsePart& p) {
   p.firstVertex = static_cast<uint32_t>(model.vertices.size());
   p.firstTriangle = static_cast<uint32_t>(model.triangles.size());

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "tiles/coarse.h"
 
@@ -26,6 +27,9 @@ Vec3 axisOf(const Frame& frame, size_t axis);
 
 /// Of the box of a part, in the world.
 std::array<Vec3, 8> cornersOf(const CoarsePart& p);
+
+/// Behind the last part of the feature whose parts begin there.
+size_t endOfFeature(const std::vector<CoarsePart>& parts, size_t begin);
 
 /// Gives a part whose box is flat across its z the triangles of that rectangle, which looks along
 /// z.
