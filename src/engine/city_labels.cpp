@@ -124,24 +124,21 @@ std::shared_ptr<const Model::Impl> CityLabels::derivedAgain(std::optional<size_t
   DeriveSettings settings = model_.from->settings;
   settings.trace = true;
   settings.cancel = cancel_;
-  const Shapes& shapes = model_.from->shapes;
-  if (!shape) return derivedUnlessStopped(shapes, settings);
-  settings.jobs = 1;
-  settings.shapeSeeds.clear();
-  for (const auto& [index, seed] : model_.from->settings.shapeSeeds) {
-    if (index == *shape) settings.shapeSeeds.emplace_back(0, seed);
+  Shapes shapes = model_.from->shapes;
+  if (shape) {
+    settings.jobs = 1;
+    settings.shapeSeeds.clear();
+    for (const auto& [index, seed] : model_.from->settings.shapeSeeds) {
+      if (index == *shape) settings.shapeSeeds.emplace_back(0, seed);
+    }
+    auto one = std::make_shared<Shapes::Impl>();
+    one->geoOrigin = shapes.impl().geoOrigin;
+    one->geo = shapes.impl().geo;
+    one->isWhole = false;
+    ShapeFootprint& f = one->footprints.emplace_back(shapes.impl().footprints[*shape]);
+    if (f.index < 0) f.index = static_cast<int64_t>(*shape);
+    shapes = Shapes(std::move(one));
   }
-  auto one = std::make_shared<Shapes::Impl>();
-  one->geoOrigin = shapes.impl().geoOrigin;
-  one->geo = shapes.impl().geo;
-  one->isWhole = false;
-  ShapeFootprint& f = one->footprints.emplace_back(shapes.impl().footprints[*shape]);
-  if (f.index < 0) f.index = static_cast<int64_t>(*shape);
-  return derivedUnlessStopped(Shapes(std::move(one)), settings);
-}
-
-std::shared_ptr<const Model::Impl> CityLabels::derivedUnlessStopped(
-    const Shapes& shapes, const DeriveSettings& settings) const {
   std::shared_ptr<const Model::Impl> model = derived(Rules(model_.rules), shapes, settings);
   // Who has stopped it wants no file without labels.
   work(kWorkBetweenLooks + 1);

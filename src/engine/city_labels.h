@@ -36,8 +36,6 @@ class CityLabels {
   int32_t ruleOf(const ShapeFootprint& shape) const;
   bool says(const ShapeFootprint& shape) const;
   std::shared_ptr<const Model::Impl> derivedAgain(std::optional<size_t> shape) const;
-  std::shared_ptr<const Model::Impl> derivedUnlessStopped(const Shapes& shapes,
-                                                          const DeriveSettings& settings) const;
   std::vector<LabelledLeaves> labelsIn(const Model::Impl& again) const;
 
   const Model::Impl& model_;

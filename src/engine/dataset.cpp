@@ -134,9 +134,9 @@ class Maker {
     // Settings that no picture can be made by must not become those of the folder.
     if (!maker.pose(settings_.picture)) return stop(maker.draw(settings_.picture).diagnostics);
     if (const auto e = folder_.begin()) return stop({diagnosticOf(*e)});
-    WriteSettings write = settings_.write;
-    if (!write.limits.cancel) write.limits.cancel = settings_.limits.cancel;
     if (!settings_.model.empty() && !folder_.has(folder_.model(seed))) {
+      WriteSettings write = settings_.write;
+      if (!write.limits.cancel) write.limits.cancel = settings_.limits.cancel;
       if (!put(folder_.model(seed), [&](const std::string& aside) {
             return model.write(aside + "model." + settings_.model, write).diagnostics;
           })) {
