@@ -48,6 +48,7 @@ class Reader {
     for (std::string_view line : linesOf(text)) {
       ++number_;
       take(line);
+      if (isOther_) break;
     }
     closeSection();
     if (file_.cases.empty() && file_.errors.empty()) error("no case in this file");
@@ -83,15 +84,20 @@ class Reader {
 
   void openSection(std::string_view line) {
     closeSection();
+    if (file_.cases.empty()) {
+      isOther_ = true;
+      error("a file of cases begins with '== name' and the sections of that case, not with '" +
+            std::string(line) + "'; rules are named in a section, such as rules: tower.cga");
+      return;
+    }
     const size_t colon = line.find(':');
     const std::string_view head = line.substr(0, colon);
     const size_t blank = head.find(' ');
     const std::string_view name = head.substr(0, blank);
-    if (colon == std::string_view::npos || file_.cases.empty() ||
+    if (colon == std::string_view::npos ||
         std::find(kSections.begin(), kSections.end(), name) == kSections.end()) {
-      const bool first = file_.cases.empty();
       error("expected a section of a case, not '" + std::string(line) + "'; there are " +
-            sectionsText() + (first ? ", each below the line of its case: == name" : ""));
+            sectionsText());
       return;
     }
     Section section;
@@ -121,6 +127,8 @@ class Reader {
   CaseFile file_;
   size_t number_ = 0;
   bool open_ = false;
+  // No file of cases.
+  bool isOther_ = false;
   std::string_view first_;
   std::vector<std::string_view> lines_;
 };

@@ -59,6 +59,7 @@ class Cases(Case):
 
     def testMistakesOfAFileFailIt(self):
         for text, says in (("== a\nrulez: x\n", ":2: expected a section"), ("", "no case"),
+                           ("Lot --> A.\n", "begins with '== name'"),
                            ("== a\nrule: Lot --> A.\n", "'expect'"),
                            (case("a", "leaves 1", rules="rules: ../rules/none.cga"), "none.cga"),
                            (case("a", "leaves 1", rules="rules: ../rules/tower.cga\nrule: Lot --> A."), "no place"),
