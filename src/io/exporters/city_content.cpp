@@ -10,22 +10,13 @@
 namespace gable {
 namespace {
 
-// Metres between leaves that touch.
-constexpr double kTouching = 0.05;
-
-bool isNear(const Box3& a, const Box3& b) {
-  for (size_t i = 0; i < 3; ++i) {
-    if (a.min[i] > b.max[i] + kTouching || b.min[i] > a.max[i] + kTouching) return false;
-  }
-  return true;
-}
-
 class Collector {
  public:
   Collector(const Scene& scene, RootParts& parts, CityFaces& faces, CityKind kindOfShape)
       : scene_(scene), parts_(parts), faces_(faces), kindOfShape_(kindOfShape) {}
 
   CityContent collect(const Root& root) {
+    parts_.settleTrim(scene_, root, faces_, [&](const Instance& in) { return standsAlone(in); });
     parts_.begin();
     if (!enters(root.instance, root.instance.frame)) return std::move(out_);
     std::vector<uint32_t> placements;
@@ -48,10 +39,15 @@ class Collector {
   }
 
  private:
-  // False for what is an object as a whole.
-  bool enters(const Instance& in, const Frame& at) {
+  // An object as a whole.
+  bool standsAlone(const Instance& in) {
     const std::optional<CityPart> part = parts_.whole(in.prototype);
-    if (!part || !isSolitary(part->kind)) return true;
+    return part && isSolitary(part->kind);
+  }
+
+  bool enters(const Instance& in, const Frame& at) {
+    if (!standsAlone(in)) return true;
+    const std::optional<CityPart> part = parts_.whole(in.prototype);
     run_.end();
     out_.instances.push_back({*part, in.prototype, at});
     parts_.skip(in.prototype);
@@ -103,7 +99,7 @@ CityPart partWithin(CityPart part, CityKind kindOfShape) {
 }
 
 bool CityRun::begins(const CityPart& part, const Box3& box) {
-  const bool follows = open_ && part == part_ && (part.shape != 0 || isNear(box_, box));
+  const bool follows = open_ && part == part_ && (part.shape != 0 || touch(box_, box));
   if (!follows) box_ = Box3{};
   open_ = true;
   part_ = part;

@@ -14,6 +14,10 @@ namespace {
 // Metres that a corner may lie beside the plane of its face, well below what checkers of city
 // models allow (a centimetre).
 constexpr double kFlat = 0.002;
+// How far above the lowest point of a building its ground may be, in metres.
+constexpr double kGround = 0.3;
+// Metres between leaves that touch.
+constexpr double kTouching = 0.05;
 
 bool isNear(const Vec3& p) {
   return std::fabs(p.x) < kFarthestCity && std::fabs(p.y) < kFarthestCity &&
@@ -28,6 +32,37 @@ Vec3 ringNormal(const std::vector<Vec3>& ring) {
     sum += cross(ring[i - 1] - ring[0], ring[i] - ring[0]);
   }
   return sum;
+}
+
+CityKind kindBySight(const CityFace& face, double foot) {
+  const double up = face.normal.y / length(face.normal);
+  if (up > kCityUp) return CityKind::Roof;
+  if (up >= -kCityUp) return CityKind::Wall;
+  const std::vector<Vec3>& ring = face.rings[0];
+  const bool low =
+      std::all_of(ring.begin(), ring.end(), [&](const Vec3& p) { return p.y <= foot + kGround; });
+  return low ? CityKind::Ground : CityKind::Ceiling;
+}
+
+void CitySights::add(const CityFace& face, double foot) {
+  areas_[kindBySight(face, foot)] += length(face.normal);
+}
+
+CityKind CitySights::oneWay() const {
+  constexpr double kNearlyAll = 0.95;
+  double all = 0;
+  for (const auto& [kind, area] : areas_) all += area;
+  for (const auto& [kind, area] : areas_) {
+    if (area >= all * kNearlyAll) return kind;
+  }
+  return CityKind::Unknown;
+}
+
+bool touch(const Box3& a, const Box3& b) {
+  for (size_t i = 0; i < 3; ++i) {
+    if (a.min[i] > b.max[i] + kTouching || b.min[i] > a.max[i] + kTouching) return false;
+  }
+  return true;
 }
 
 bool CityFaces::isFlat(const CityFace& face) const {

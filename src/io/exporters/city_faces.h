@@ -9,9 +9,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <vector>
 
 #include "geom/mesh/face_triangles.h"
+#include "io/exporters/city_kinds.h"
 #include "scene/scene.h"
 
 namespace gable {
@@ -29,6 +31,28 @@ struct CityFace {
 
 /// Newell's normal of a ring: its length is twice the area.
 Vec3 ringNormal(const std::vector<Vec3>& ring);
+
+/// More looks up, less than its negative down: the upward part of a unit normal.
+constexpr double kCityUp = 0.3;
+
+/// What a face of a building is by where it looks: Roof upwards, Wall to the side, downwards Ground
+/// at the foot of the building, `foot`, and Ceiling above it.
+CityKind kindBySight(const CityFace& face, double foot);
+
+/// What several faces are by where they look.
+class CitySights {
+ public:
+  void add(const CityFace& face, double foot);
+  void clear() { areas_.clear(); }
+  /// The kind of nearly all of their area; Unknown where they look several ways.
+  CityKind oneWay() const;
+
+ private:
+  std::map<CityKind, double> areas_;
+};
+
+/// Boxes that touch, or are less than five centimetres apart.
+bool touch(const Box3& a, const Box3& b);
 
 class CityFaces {
  public:

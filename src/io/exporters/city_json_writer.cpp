@@ -35,12 +35,8 @@ namespace {
 
 // Text is handed on in pieces of so many bytes.
 constexpr size_t kPiece = 1 << 20;
-// Of a unit normal, upwards: more looks up, less than its negative down.
-constexpr double kUp = 0.3;
 // More, or less than its negative, is level.
 constexpr double kLevel = 0.9;
-// How far above the lowest point of a building its ground may be, in metres.
-constexpr double kGround = 0.3;
 // Square metres of a face that may be a roof.
 constexpr double kLeastFace = 0.02;
 
@@ -197,21 +193,17 @@ Box3 CityJsonWriter::boxOf(const CityObjectContent& object, const CityContent& c
 
 // By the table of kinds; what it leaves open, and floors, by where the face looks.
 const char* CityJsonWriter::surfaceOf(CityKind kind, const CityFace& face, double base) const {
-  const double up = face.normal.y / length(face.normal);
-  const bool looksUp = up > kUp, looksDown = up < -kUp;
+  const CityKind sight = kindBySight(face, base);
   if (kind == CityKind::Floor || kind == CityKind::Ceiling || kind == CityKind::Ground) {
-    if (looksUp) return "OuterFloorSurface";
-    if (!looksDown) return "WallSurface";
+    if (sight == CityKind::Roof) return "OuterFloorSurface";
+    if (sight == CityKind::Wall) return "WallSurface";
     return kind == CityKind::Ground ? "GroundSurface" : "OuterCeilingSurface";
   }
   // The top of a wall that is a body is none.
+  const double up = face.normal.y / length(face.normal);
   const bool lies = kind == CityKind::Wall && std::fabs(up) > kLevel;
   if (const char* known = specOf(kind).surface; known && !lies) return known;
-  if (looksUp) return "RoofSurface";
-  if (!looksDown) return "WallSurface";
-  const bool low = std::all_of(face.rings[0].begin(), face.rings[0].end(),
-                               [&](const Vec3& p) { return p.y <= base + kGround; });
-  return low ? "GroundSurface" : "OuterCeilingSurface";
+  return specOf(sight).surface;
 }
 
 uint32_t CityJsonWriter::semanticOf(const PlacedPart& part, const char* type,
@@ -271,7 +263,7 @@ void CityJsonWriter::writeLeaf(const Leaf& leaf, const Frame& world, const Place
                                double base, bool upOnly, Surfaces& said) {
   const bool semantic = !specOf(part.kind).object || isOfBuilding(part.kind);
   faces_.forEach(leaf, world, [&](CityFace& face) {
-    if (upOnly && face.normal.y <= kUp * length(face.normal)) return;
+    if (upOnly && face.normal.y <= kCityUp * length(face.normal)) return;
     if (!putFace(face, said.semanticOf.empty())) return;
     const char* type = semantic ? surfaceOf(part.kind, face, base) : nullptr;
     said.semanticOf.push_back(type ? semanticOf(part, type, said) : CitySurfaces::kNone);

@@ -58,9 +58,21 @@ constexpr CityKindSpec kSpecs[kCityKinds] = {
     {"Construction", nullptr, "OtherConstruction", "IfcBuildingElementProxy", "construction"},
 };
 
-// Words of a window that other things have as well.
-constexpr std::string_view kTrims[] = {"frame",  "frames",  "bar",  "bars",  "mullion", "mullions",
-                                       "muntin", "muntins", "sill", "sills", "trim",    "trims"};
+// Words of small parts that windows have, and other things as well.
+struct TrimWord {
+  std::string_view word;
+  CityKind kind;
+};
+constexpr TrimWord kTrims[] = {
+    {"frame", CityKind::Window},      {"frames", CityKind::Window},
+    {"bar", CityKind::Window},        {"bars", CityKind::Window},
+    {"mullion", CityKind::Window},    {"mullions", CityKind::Window},
+    {"muntin", CityKind::Window},     {"muntins", CityKind::Window},
+    {"sill", CityKind::Covering},     {"sills", CityKind::Covering},
+    {"trim", CityKind::Covering},     {"trims", CityKind::Covering},
+    {"moulding", CityKind::Covering}, {"mouldings", CityKind::Covering},
+    {"cornice", CityKind::Covering},  {"cornices", CityKind::Covering},
+};
 
 // Sorted.
 using Words = std::vector<std::pair<std::string_view, CityKind>>;
@@ -149,8 +161,11 @@ double heightOfBody(const Mesh& mesh) {
   return 0;
 }
 
-bool isWordOfTrim(const std::string& word) {
-  return std::find(std::begin(kTrims), std::end(kTrims), word) != std::end(kTrims);
+CityKind trimKindOfWord(const std::string& word) {
+  for (const TrimWord& t : kTrims) {
+    if (t.word == word) return t.kind;
+  }
+  return CityKind::Unknown;
 }
 
 }  // namespace
@@ -179,20 +194,37 @@ CityKind cityKindOfLabel(std::string_view label) {
   return kind;
 }
 
-bool isTrim(std::string_view name) {
-  bool is = false;
+CityKind trimKindOf(std::string_view name) {
+  CityKind kind = CityKind::Unknown;
   forEachWord(ownName(name), [&](const std::string& word) {
-    is = is || isWordOfTrim(word);
-    return is;
+    kind = trimKindOfWord(word);
+    return kind != CityKind::Unknown;
   });
-  return is && cityKindOfIdentifier(name) == CityKind::Unknown;
+  return cityKindOfIdentifier(name) == CityKind::Unknown ? kind : CityKind::Unknown;
+}
+
+bool takesTrim(CityKind kind) {
+  switch (kind) {
+    case CityKind::Window:
+    case CityKind::Door:
+    case CityKind::Stair:
+    case CityKind::Railing:
+    case CityKind::Column:
+    case CityKind::Beam:
+    case CityKind::Chimney:
+    case CityKind::Installation:
+    case CityKind::Furniture:
+    case CityKind::StreetFurniture: return true;
+    default: return false;
+  }
 }
 
 CityParts::CityParts(const Scene& scene) {
   for (const std::string& name : scene.names) {
     work(name.size());
     names_.push_back(cityWordOf(name));
-    trims_.push_back(isTrim(name));
+    trims_.push_back(trimKindOf(name));
+    hasTrim_ = hasTrim_ || trims_.back() != CityKind::Unknown;
   }
   for (const SourcePlace& s : scene.sources) {
     work(s.rule.size());
@@ -266,15 +298,29 @@ CityPart CityParts::of(const Leaf& leaf) const {
   if (part.kind != CityKind::Unknown) return part;
   if (leaf.source < sources_.size()) part.kind = kindOf(sources_[leaf.source], leaf);
   const bool isTrimmed = part.kind == CityKind::Unknown || part.kind == CityKind::Wall;
-  if (isTrimmed && leaf.name < trims_.size() && trims_[leaf.name]) part.kind = CityKind::Window;
+  if (!isTrimmed || leaf.name >= trims_.size()) return part;
+  if (const CityKind trim = trims_[leaf.name]; trim != CityKind::Unknown) {
+    part.kind = trim;
+    part.trim = true;
+  }
   return part;
+}
+
+std::optional<CityPart> partOfBoth(const CityPart& a, const CityPart& b) {
+  if (a.object != b.object || a.storey != b.storey) return std::nullopt;
+  if (a == b) return a;
+  if (a.trim && b.trim) return a.kind == CityKind::Window ? a : b;
+  if (a.trim && takesTrim(b.kind)) return b;
+  if (b.trim && takesTrim(a.kind)) return a;
+  return std::nullopt;
 }
 
 void CityParts::Wholes::take(size_t p, const CityPart& of, Whole how) {
   if (how == Whole::Empty || whole[p] == Whole::Mixed) return;
-  const bool differs = whole[p] == Whole::One && !(part[p] == of);
-  whole[p] = differs ? Whole::Mixed : how;
-  part[p] = of;
+  const std::optional<CityPart> both =
+      whole[p] == Whole::One ? partOfBoth(part[p], of) : std::optional(of);
+  whole[p] = both ? how : Whole::Mixed;
+  part[p] = both.value_or(of);
 }
 
 // `partOf` gives nothing for leaves that no prototype may be whole with.

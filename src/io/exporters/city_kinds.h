@@ -9,6 +9,7 @@
 //      names go before it where they say a window or a door in a wall or a roof;
 //   3. the last word of the leaf's name that says it: FrontDoor is a door, DoorWall a wall;
 //   4. the last such word of the rule that made it.
+// Small parts that many things have, such as frames and sills, are of what they touch (RootParts).
 // Of a name only what follows its last dot counts: what stands before is the name of an import.
 // What none of them says is unknown: part of the building, told by where it looks.
 // docs/guide/city-models.md has the table for authors of rules.
@@ -96,19 +97,28 @@ CityKind cityKindOfIdentifier(std::string_view name);
 /// tags that roofs give their faces (roof.top, roof.side, roof.bottom) say nothing: the sides of a
 /// roof are walls.
 CityKind cityKindOfLabel(std::string_view label);
-/// True where a name has only words of what windows have, and doors, railings and roofs as well,
-/// such as Frame: the rule's name counts before it, unless that is a wall.
-bool isTrim(std::string_view name);
+/// What a name alone says whose telling words are of small parts that windows have, and doors,
+/// stairs and roofs as well: Window for a frame or a bar, Covering for a sill or a moulding.
+/// Unknown for all other names.
+CityKind trimKindOf(std::string_view name);
+/// Trim that touches it is part of it.
+bool takesTrim(CityKind kind);
 
 /// What a leaf is a part of.
 struct CityPart {
   CityKind kind = CityKind::Unknown;
+  /// The kind is that of trim alone, and what it touches says more.
+  bool trim = false;
   /// Of the attributes cityObject and cityStorey: indices into CityParts::texts(), 0 for none.
   uint32_t object = 0, storey = 0;
   /// LabelledLeaves::shape where a label says the kind, 0 elsewhere.
   uint32_t shape = 0;
   friend bool operator==(const CityPart&, const CityPart&) = default;
 };
+
+/// What two leaves that touch are together, where they are of one thing: of one part, or one is
+/// trim of the other. Two that are trim are a window where one of them is of a window.
+std::optional<CityPart> partOfBoth(const CityPart& a, const CityPart& b);
 
 /// The parts of a scene's leaves, as names and attributes say them.
 class CityParts {
@@ -124,6 +134,8 @@ class CityParts {
   const CityPart* wholePart(uint32_t prototype) const { return named_.one(prototype); }
   /// The same by attributes alone; its kind may be unknown.
   const CityPart* wholeSaid(uint32_t prototype) const { return said_.one(prototype); }
+  /// Some leaf of the scene is trim.
+  bool hasTrim() const { return hasTrim_; }
   /// Names or attributes say an opening of some leaf of a prototype, instances expanded.
   bool hasOpening(uint32_t prototype) const { return hasOpening_[prototype]; }
   /// Of a prototype, instances expanded.
@@ -156,7 +168,8 @@ class CityParts {
   std::vector<CityWord> names_, sources_;
   // By mesh: the height of a body, where a leaf of a lot shows it.
   std::vector<std::optional<double>> bodies_;
-  std::vector<bool> trims_;
+  std::vector<CityKind> trims_;
+  bool hasTrim_ = false;
   std::vector<CityPart> setParts_;
   std::vector<std::string> texts_{""};
   std::map<std::string, uint32_t> textNumbers_;

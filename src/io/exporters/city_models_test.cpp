@@ -534,10 +534,81 @@ TEST(CityKinds, trimIsOfWhatItIsOn) {
   c.prototype("Lot");
   ASSERT_GE(c.scene.leaves.size(), 8u);
   const CityParts parts(c.scene);
-  const CityKind expected[] = {CityKind::Window, CityKind::Window,  CityKind::Railing,
-                               CityKind::Door,   CityKind::Unknown, CityKind::Unknown,
+  const CityKind expected[] = {CityKind::Window, CityKind::Covering, CityKind::Railing,
+                               CityKind::Door,   CityKind::Unknown,  CityKind::Unknown,
                                CityKind::Stair,  CityKind::Ground};
   for (size_t i = 0; i < 8; ++i) EXPECT_EQ(parts.of(c.scene.leaves[i]).kind, expected[i]) << i;
+}
+
+// Trim is of the element that it touches, whichever comes first, and no element of its own.
+TEST(Ifc, trimIsOfWhatItTouches) {
+  City c;
+  // A window with its sill first, and one whose sill comes last.
+  c.box("Sill", {0, 0.9, 0}, {1.2, 0.1, 0.3});
+  c.box("Pane", {0.1, 1, 0.1}, {1, 1, 0.02});
+  c.box("Pane", {4.1, 1, 0.1}, {1, 1, 0.02});
+  c.box("Sill", {4, 0.9, 0}, {1.2, 0.1, 0.3});
+  // Steps with an edge of stone, a door in its frame, and a moulding at a wall.
+  c.box("Step", {8, 0, 0}, {2, 0.2, 1});
+  c.box("Trim", {8, 0.2, 0}, {2, 0.02, 1});
+  c.box("Frame", {12, 0, 0}, {1, 2.1, 0.1});
+  c.box("Door", {12.1, 0, 0}, {0.8, 2, 0.1});
+  c.box("Wall", {16, 0, 0}, {5, 3, 0.3});
+  c.box("Trim", {16, 3, 0}, {5, 0.1, 0.4});
+  c.root("a", c.prototype("Lot"), Frame{});
+  const std::string path = inWritten("trim.ifc");
+  ASSERT_TRUE(writeModel(c.scene, path, {}).ok());
+  const std::string text = readFile(path).value();
+  EXPECT_EQ(countOf(text, "=IFCWINDOW("), 2u);
+  EXPECT_EQ(countOf(text, "=IFCSTAIR("), 1u);
+  EXPECT_EQ(countOf(text, "=IFCDOOR("), 1u);
+  EXPECT_EQ(countOf(text, "=IFCWALL("), 1u);
+  EXPECT_EQ(countOf(text, "=IFCCOVERING("), 1u);
+  EXPECT_NE(text.find(".MOLDING."), std::string::npos);
+  // A window is called by its pane, and is as wide as its sill.
+  EXPECT_EQ(countOf(text, ",'Pane',$,'Window'"), 2u);
+  EXPECT_EQ(countOf(text, ",1.1,1.2,.NOTDEFINED."), 2u);
+}
+
+// In a labelled wall a sill is of the window that it touches, else of the wall.
+TEST(Ifc, trimInALabelledWall) {
+  City c;
+  c.box("Brick", {0, 0, 0}, {5, 3, 0.3});
+  c.box("Sill", {1, 0.9, 0.3}, {1.2, 0.1, 0.3});
+  c.box("Pane", {1.1, 1, 0.3}, {1, 1, 0.02});
+  c.box("Trim", {0, 2.8, 0.3}, {5, 0.1, 0.1});
+  c.root("a", c.prototype("Lot"), Frame{});
+  WriteOptions options;
+  options.labelsOf = [](size_t) { return std::vector<LabelledLeaves>{{0, 4, 1, "wall"}}; };
+  const std::string path = inWritten("labelled-trim.ifc");
+  ASSERT_TRUE(writeModel(c.scene, path, options).ok());
+  const std::string text = readFile(path).value();
+  EXPECT_EQ(countOf(text, "=IFCWINDOW("), 1u);
+  EXPECT_EQ(countOf(text, "=IFCCOVERING("), 0u);
+}
+
+TEST(Ifc, whatNothingSaysIsToldOrSeen) {
+  City c;
+  c.box("Brick", {0, 0, 0}, {8, 6, 8});
+  const uint32_t tiles = c.name("Tiles"), render = c.name("Render");
+  const auto sheet = [&](uint32_t mesh, const Vec3& at, const Vec3& size, uint32_t named) {
+    Leaf& l = c.leaf(mesh, Frame::moved(at), size);
+    l.name = named;
+    l.source = 1;
+  };
+  sheet(kUnitQuadXz, {0, 6, 0}, {8, 1, 8}, tiles);
+  sheet(kUnitQuadXy, {0, 0, 9}, {8, 6, 1}, render);
+  c.root("a", c.prototype("Lot"), Frame{});
+  const std::string path = inWritten("seen.ifc");
+  auto report = writeModel(c.scene, path, {});
+  ASSERT_TRUE(report.ok());
+  const std::string text = readFile(path).value();
+  EXPECT_EQ(countOf(text, "=IFCROOF("), 1u);
+  EXPECT_EQ(countOf(text, "=IFCWALL("), 1u);
+  EXPECT_EQ(countOf(text, "=IFCBUILDINGELEMENTPROXY("), 1u);
+  ASSERT_EQ(report->warnings.size(), 1u);
+  EXPECT_NE(report->warnings[0].find("nothing says what 1 part is"), std::string::npos);
+  EXPECT_NE(report->warnings[0].find("Brick (1)"), std::string::npos);
 }
 
 TEST(CityJsonWriter, objectsHaveTheIdsOfMaps) {

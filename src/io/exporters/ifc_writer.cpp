@@ -3,10 +3,10 @@
 //
 // IFC4 (ISO 16739-1:2018, Reference View) as STEP text. An initial shape is a building; its leaves
 // are taken in path order, and those that follow each other, are of one kind and touch are one
-// element. A prototype that is of one kind and stands several times is an element for each place of
-// it, of one mapped shape. An element lies in the frame of its first leaf, and those that are equal
-// there share their shape. In memory are one element, the numbers of those of a building, and a
-// number for each shape.
+// element. What nothing says and looks one way is a roof, a wall or a ceiling. A prototype that is
+// of one kind and stands several times is an element for each place of it, of one mapped shape. An
+// element lies in the frame of its first leaf, and those that are equal there share their shape. In
+// memory are one element, the numbers of those of a building, and a number for each shape.
 //
 // Elements lie in the storeys of ifc_storeys.h.
 #include <algorithm>
@@ -17,6 +17,7 @@
 #include "base/hash.h"
 #include "base/number.h"
 #include "base/work.h"
+#include "io/exporters/city_blocks.h"
 #include "io/exporters/city_content.h"
 #include "io/exporters/city_place.h"
 #include "io/exporters/ifc_elements.h"
@@ -32,6 +33,8 @@ namespace {
 // An element of more is several.
 constexpr uint64_t kMostTriangles = 50'000;
 constexpr size_t kMostLabel = 255;
+// Names that a message lists.
+constexpr size_t kMostTold = 8;
 
 struct Storey {
   StepId id = 0, placement = 0;
@@ -74,7 +77,11 @@ class IfcWriter {
   void measure(const Root& root, CityKind kind);
   void openBuilding();
   void closeBuilding(const Attributes& known);
+  void look(const Leaf& leaf, const Frame& world);
+  CityKind kindBySight(const Box3& box) const;
+  void tellProxies();
   void addLeaf(uint32_t leaf, const Frame& world, CityKind kindOfShape);
+  bool standsAlone(const Instance& in);
   void addInstance(const Instance& in, const Frame& world, const CityPart& part);
   void endElement();
   const Mapped& mappedOf(uint32_t prototype);
@@ -88,7 +95,7 @@ class IfcWriter {
   };
   /// `definition`: an IfcProductDefinitionShape in `frame`.
   void putElement(const Element& e, StepId definition, const Frame& frame);
-  std::string tailOf(CityKind kind, const Vec3& size) const;
+  std::string tailOf(const CityPart& part, const Vec3& size) const;
   void relate(const char* relation, StepId parent, const std::vector<StepId>& children);
   std::string nameOf(uint32_t number) const {
     return stepText(number < scene_.names.size() ? scene_.names[number] : "", kMostLabel);
@@ -125,9 +132,14 @@ class IfcWriter {
   IfcShape shape_;
   CityRun run_;
   Element open_;
+  bool nameIsTrim_ = false;
   // Where the element lies, the way there from the world, and that to its first leaf.
   Frame frame_, toFrame_, ownAxes_;
   Box3 ownBox_;
+  // Of an element whose kind nothing says.
+  CitySights sights_;
+  // By name, the elements that stay without a kind.
+  std::map<std::string, uint64_t> proxies_;
 };
 
 void IfcWriter::relate(const char* relation, StepId parent, const std::vector<StepId>& children) {
@@ -270,8 +282,8 @@ Vec3 upright(Vec3 size, const Frame& frame) {
 }
 
 // What follows the tag in the lines of a class.
-std::string IfcWriter::tailOf(CityKind kind, const Vec3& size) const {
-  switch (kind) {
+std::string IfcWriter::tailOf(const CityPart& part, const Vec3& size) const {
+  switch (part.kind) {
     case CityKind::Window:
     case CityKind::Door: {
       const std::string tall = stepReal(std::round(size.y * 1e5) / 1e5);
@@ -281,13 +293,13 @@ std::string IfcWriter::tailOf(CityKind kind, const Vec3& size) const {
     case CityKind::Floor: return ",.FLOOR.)";
     case CityKind::Ground: return ",.BASESLAB.)";
     case CityKind::Ceiling: return ",.CEILING.)";
-    case CityKind::Covering: return ",.CLADDING.)";
+    case CityKind::Covering: return part.trim ? ",.MOLDING.)" : ",.CLADDING.)";
     case CityKind::Bridge:
     case CityKind::Tunnel: return ")";
     default: break;
   }
-  return std::string_view(specOf(kind).ifc) == "IfcGeographicElement" ? ",.USERDEFINED.)"
-                                                                      : ",.NOTDEFINED.)";
+  return std::string_view(specOf(part.kind).ifc) == "IfcGeographicElement" ? ",.USERDEFINED.)"
+                                                                           : ",.NOTDEFINED.)";
 }
 
 std::string upperCase(std::string text) {
@@ -296,9 +308,10 @@ std::string upperCase(std::string text) {
 }
 
 void IfcWriter::putElement(const Element& e, StepId definition, const Frame& frame) {
-  const CityPart& part = e.part;
+  CityPart part = e.part;
   Storey* storey = nullptr;
   if (isOfBuilding(part.kind) && !storeys_.empty()) storey = &storeys_[levels_.of(part, e.box)];
+  if (part.kind == CityKind::Unknown) part.kind = kindBySight(e.box);
   const StepId around = storey ? storey->placement : sitePlacement_;
   const StepId axes = frame == Frame{} ? identity_ : axes_.axes(frame);
   const StepId placement =
@@ -309,8 +322,11 @@ void IfcWriter::putElement(const Element& e, StepId definition, const Frame& fra
                                                             : std::string("'") + spec.name + "'";
   const StepId id =
       file_.add(upperCase(spec.ifc) + "(" + guid() + ",$," + nameOf(e.name) + ",$," + type + "," +
-                stepRef(placement) + "," + stepRef(definition) + ",$" + tailOf(part.kind, e.size));
+                stepRef(placement) + "," + stepRef(definition) + ",$" + tailOf(part, e.size));
   (storey ? storey->elements : siteElements_).push_back(id);
+  if (part.kind == CityKind::Unknown) {
+    ++proxies_[e.name < scene_.names.size() ? scene_.names[e.name] : ""];
+  }
   if (e.material < scene_.materials.size()) elementsOf_[e.material].push_back(id);
 }
 
@@ -323,7 +339,44 @@ void IfcWriter::endElement() {
     putElement(open_, shapes_->definition(shape_), frame_);
   }
   shape_.clear();
+  sights_.clear();
   run_.end();
+}
+
+void IfcWriter::look(const Leaf& leaf, const Frame& world) {
+  const double foot = levels_.bounds().min.y;
+  faces_.forEach(leaf, world, [&](const CityFace& face) { sights_.add(face, foot); });
+}
+
+// Of the element at hand, whose kind nothing says. What looks up at the foot of a building is no
+// roof.
+CityKind IfcWriter::kindBySight(const Box3& box) const {
+  const CityKind kind = sights_.oneWay();
+  const bool low = box.max.y < levels_.bounds().min.y + kLeastRoof;
+  return kind == CityKind::Roof && low ? CityKind::Unknown : kind;
+}
+
+void IfcWriter::tellProxies() {
+  uint64_t count = 0;
+  std::vector<std::pair<uint64_t, std::string>> names;
+  for (const auto& [name, n] : proxies_) {
+    work();
+    count += n;
+    names.emplace_back(n, name.empty() ? "without a name" : name);
+  }
+  if (count == 0) return;
+  std::sort(names.begin(), names.end(), [](const auto& a, const auto& b) {
+    return a.first != b.first ? a.first > b.first : a.second < b.second;
+  });
+  std::string told;
+  for (size_t i = 0; i < std::min(names.size(), kMostTold); ++i) {
+    told += (i ? ", " : "") + names[i].second + " (" + std::to_string(names[i].first) + ")";
+  }
+  if (names.size() > kMostTold) told += " and others";
+  report_.warnings.push_back(
+      "nothing says what " + std::to_string(count) + (count == 1 ? " part is" : " parts are") +
+      ", so the class is IfcBuildingElementProxy: " + told +
+      "; set(cityPart, \"Wall\") in a rule says it; docs/guide/city-models.md lists the words");
 }
 
 // Whether a place can be written.
@@ -339,6 +392,7 @@ void IfcWriter::addLeaf(uint32_t index, const Frame& around, CityKind kindOfShap
   const Frame world = around * leaf.frame;
   const CityPart part = partWithin(parts_.next(leaf), kindOfShape);
   const Box3 box = faces_.boxOf(leaf, world);
+  const bool isTrim = kinds_.of(leaf).trim;
   // Of what is unknown the name is all that there is.
   const bool other = part.kind == CityKind::Unknown && leaf.name != open_.name;
   CityRun next = run_;
@@ -348,13 +402,18 @@ void IfcWriter::addLeaf(uint32_t index, const Frame& around, CityKind kindOfShap
     run_.begins(part, box);
     open_.part = part;
     open_.name = leaf.name;
+    nameIsTrim_ = isTrim;
     frame_ = isNear(world.origin) ? world : Frame{};
     ownAxes_ = inverse(world);
     toFrame_ = inverse(frame_);
     ownBox_ = Box3{};
   } else {
     run_ = next;
+    // A window has the name of its pane, not of its sill.
+    if (nameIsTrim_ && !isTrim) open_.name = leaf.name;
+    nameIsTrim_ = nameIsTrim_ && isTrim;
   }
+  if (part.kind == CityKind::Unknown) look(leaf, world);
   ownBox_.include(faces_.boxOf(leaf, ownAxes_ * world));
   shape_.add(leaf, toFrame_ * world);
 }
@@ -375,6 +434,13 @@ const IfcWriter::Mapped& IfcWriter::mappedOf(uint32_t prototype) {
   m.map = file_.add("IFCREPRESENTATIONMAP(" + stepRef(identity_) + "," +
                     stepRef(shapes_->representation(shape)) + ")");
   return m;
+}
+
+// Trim is part of the element that it touches.
+bool IfcWriter::standsAlone(const Instance& in) {
+  if (kinds_.uses(in.prototype) < 2) return false;
+  const std::optional<CityPart> part = parts_.whole(in.prototype);
+  return part && !part->trim;
 }
 
 void IfcWriter::addInstance(const Instance& in, const Frame& world, const CityPart& part) {
@@ -403,6 +469,7 @@ void IfcWriter::writeRoot(uint32_t number) {
   const std::string& name = root.name < scene_.names.size() ? scene_.names[root.name] : path_;
   parts_.open(options_.labelsOf ? options_.labelsOf(number) : std::vector<LabelledLeaves>{});
   const CityKind kind = kindOrLand(scene_, parts_, root, kindOfShape(name, known));
+  parts_.settleTrim(scene_, root, faces_, [&](const Instance& in) { return standsAlone(in); });
   measure(root, kind);
   levels_.divide(storeyCountOf(known));
   const std::string title = titleOfShape(name, known);
@@ -411,9 +478,8 @@ void IfcWriter::writeRoot(uint32_t number) {
   rootNumber_ = hashBytes(title, ++titles_[title]);
   if (builds_) openBuilding();
   const auto enter = [&](const Instance& in, const Frame& world) {
-    const std::optional<CityPart> part = parts_.whole(in.prototype);
-    if (!part || kinds_.uses(in.prototype) < 2) return true;
-    addInstance(in, world, partWithin(*part, kind));
+    if (!standsAlone(in)) return true;
+    addInstance(in, world, partWithin(*parts_.whole(in.prototype), kind));
     parts_.skip(in.prototype);
     return false;
   };
@@ -450,6 +516,7 @@ Result<WriteReport> IfcWriter::write() {
               stepRef(of) + ")");
   }
   file_.raw("ENDSEC;\nEND-ISO-10303-21;\n");
+  tellProxies();
   for (const std::string& word : kinds_.unknownWords()) {
     report_.warnings.push_back("'" + word +
                                "' is no cityPart: the parts that say so are taken for " +
