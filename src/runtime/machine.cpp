@@ -102,7 +102,10 @@ void Machine::closeUnit(OutputUnit& unit, StringId name, uint64_t shapesBefore) 
     output_.openEvents.resize(begin.events);
   }
   unit.worker = worker_;
-  unit.prototype = prototypes_.endUnit(name, tally_.expanded() - shapesBefore);
+  const bool whole = !aborted_ && !holes_.any();
+  unit.prototype = equalRoot_ ? *equalRoot_
+                              : prototypes_.endUnit(name, tally_.expanded() - shapesBefore,
+                                                    aborted_ ? ShareKey{} : rootKey_, whole);
   if (incremental_) incremental_->endUnit(worker_, unit.prototype);
   unit.holes = holes_.take();
   unit.messages = log_.take();
@@ -125,6 +128,8 @@ void Machine::beginUnit() {
   log_.beginUnit();
   holes_.begin();
   prototypes_.beginUnit();
+  rootKey_ = {};
+  equalRoot_.reset();
 }
 
 void Machine::endUnit(const Status& status) {
@@ -267,6 +272,8 @@ void Machine::beginRoot(uint32_t rule) {
   parameters_ = 0;
   pc_ = program_.code.data() + code.entry;
   if (incremental_ && beginPart(a)) activationCount_ = 0;
+  const bool isShared = code.shared && !flat_ && !incremental_ && !isFirstPass();
+  if (isShared && takeEqualRoot(a)) activationCount_ = 0;
 }
 
 // Attributes are bound by name: options over the shape's own, both over the initialiser.

@@ -231,6 +231,7 @@ class Machine final : public Services, private WorkMeter {
   bool beginShared(const RuleCode& rule, Activation& call);
   void endShared();
   ShareKey keyOf(const Activation& call);
+  bool takeEqualRoot(const Activation& root);
   void speak(const OutputEvent& event);
 
   // Recall.
@@ -395,6 +396,10 @@ class Machine final : public Services, private WorkMeter {
   uint64_t salt_ = 0;
   bool aborted_ = false;
   uint64_t cacheHits_ = 0;
+  /// Of the initial shape at work: what makes others equal to it, none where nothing does, and the
+  /// prototype of one before that is.
+  ShareKey rootKey_;
+  std::optional<uint32_t> equalRoot_;
   /// The instruction at work, for messages.
   const Instruction* instruction_ = nullptr;
   const OpSpec* builtinSetSpec_ = nullptr;

@@ -55,6 +55,21 @@ bool Machine::beginShared(const RuleCode& rule, Activation& call) {
   return false;
 }
 
+// An initial shape is as one before it: same rule, geometry, scope and attributes, and the rule
+// sees nothing else. Its result is that of the other.
+bool Machine::takeEqualRoot(const Activation& root) {
+  const ShareKey key = keyOf(root);
+  const bool spoke = output_.openEvents.size() > prototypes_.unitMark().events;
+  if (aborted_ || spoke) return false;
+  rootKey_ = rootKey(key, root.shape.scope, nameId_);
+  equalRoot_ = prototypes_.find(rootKey_);
+  if (!equalRoot_) return false;
+  ++cacheHits_;
+  // The initial shape itself has been counted already.
+  tally_.countExpanded(prototypes_.finished(*equalRoot_).range.shapes - 1);
+  return true;
+}
+
 void Machine::endShared() {
   worlds_.close();
   if (!flat_) prototypes_.end(tally_.expanded(), !aborted_);

@@ -36,7 +36,7 @@ class Merger {
   void addRoot(const OutputUnit& r) {
     const std::vector<Segment> segments = segmentsOf(r);
     const uint32_t prototype =
-        segments.size() == 1 ? import(r.worker, r.prototype) : join(segments);
+        segments.size() == 1 ? import(r.worker, r.prototype) : joined(r, segments);
     Root root;
     root.instance = {r.frame, prototype, 0};
     scene_.roots.push_back(root);
@@ -203,6 +203,16 @@ class Merger {
     s.content.range.instanceCount = end.instances - s.from.instances;
     s.content.firstEvent += s.from.events;
     s.content.eventCount = end.events - s.from.events;
+  }
+
+  // The prototype of a root of several units, which an equal root may have already.
+  uint32_t joined(const OutputUnit& root, const std::vector<Segment>& segments) {
+    const ShareKey key = keyOf(root.worker, root.prototype);
+    if (!isShared(key)) return join(segments);
+    const uint32_t* const known = byKey_.find(key);
+    const uint32_t number = known ? *known : join(segments);
+    if (!known) byKey_.emplace(key, number);
+    return number;
   }
 
   // One prototype of the scene, of several units.

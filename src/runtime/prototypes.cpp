@@ -10,8 +10,10 @@ void Prototypes::beginUnit() {
   unit_ = output_.mark();
 }
 
-uint32_t Prototypes::endUnit(StringId name, uint64_t shapes) {
-  return output_.close(unit_, name, shapes, ShareKey{});
+uint32_t Prototypes::endUnit(StringId name, uint64_t shapes, const ShareKey& key, bool whole) {
+  const uint32_t number = output_.close(unit_, name, shapes, key);
+  if (whole && key != ShareKey{}) numbers_.emplace(key, number);
+  return number;
 }
 
 Output::Mark Prototypes::placeInUnit() const {

@@ -21,8 +21,10 @@ class Prototypes {
 
   /// A unit of work begins here.
   void beginUnit();
-  /// What lies open becomes the unit's prototype. `shapes`: so many are in it.
-  uint32_t endUnit(StringId name, uint64_t shapes);
+  /// What lies open becomes the unit's prototype. `shapes`: so many are in it. `whole`: nothing of
+  /// it is elsewhere, so find() may give it to an equal unit; `key` is none where there can be
+  /// none.
+  uint32_t endUnit(StringId name, uint64_t shapes, const ShareKey& key = {}, bool whole = false);
   /// Where the unit began.
   const Output::Mark& unitMark() const { return unit_; }
   /// The present place, counted from there.

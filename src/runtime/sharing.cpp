@@ -80,6 +80,17 @@ ShareKey sharedKey(const SharedCall& call) {
   return withAttributes(h.key(), s.attributes);
 }
 
+ShareKey rootKey(const ShareKey& call, const Frame& scope, StringId name) {
+  constexpr uint64_t kOfRoots = 0x7a3d5c1e90b24f68ULL;
+  KeyHash h;
+  h.add(kOfRoots);
+  h.add(call.a);
+  h.add(call.b);
+  h.add(scope);
+  h.add(uint64_t{name});
+  return h.key();
+}
+
 bool isSharedWhenSeeded(uint32_t effects) {
   constexpr uint32_t kElsewhere =
       kReadsWorld | kReadsContext | kReadsPath | kLabels | kReadsInitialShape | kAsksForRoom;

@@ -34,6 +34,10 @@ struct SharedCall {
 
 ShareKey sharedKey(const SharedCall& call);
 
+/// The key of an initial shape of that name, from that of its start rule. It works in its own
+/// frame, in which `scope` lies.
+ShareKey rootKey(const ShareKey& call, const Frame& scope, StringId name);
+
 /// Whether calls of a rule with these effects, which draws, are shared where a rule has chosen the
 /// address of the shape (shape/seeded_path.h): then the address is part of the key.
 bool isSharedWhenSeeded(uint32_t effects);

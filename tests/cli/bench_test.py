@@ -74,7 +74,7 @@ class Bench(Case):
         self.assertIn("worst: ", told)
         # They derive again for their labels, and make ready for many pictures at once.
         told = self.command(sys.executable, "-B", "tools/cancel.py", GABLE, "temple", "--times", "4", "--kinds", "cityjson", "ifc",
-                            "dataset", "--most", "0.2", "--within", "20")
+                            "dataset", "--most", "0.2", "--within", "8")
         self.assertIn("worst: ", told)
 
     def testAnswersOfAFullStudioAreTheSame(self):

@@ -159,6 +159,49 @@ TEST(Sharing, seesTagsOnlyWhereARuleReadsThem) {
   EXPECT_EQ(prototypesWithBays("split(z) { ~1 : cleanupGeometry(all, 0.1) Box. }*"), 13u);
 }
 
+// Equal lots, and one of another size.
+Shapes row() {
+  const Shapes lot = Shapes::lot(10, 7);
+  return Shapes::joined({lot, lot, Shapes::lot(12, 7), lot});
+}
+
+Model rowOf(const std::string& rules, unsigned jobs, bool sharing = true) {
+  const Rules parsed = Rules::parse(rules, "row.cga");
+  EXPECT_TRUE(parsed.ok());
+  DeriveSettings settings;
+  settings.jobs = jobs;
+  settings.sharing = sharing;
+  return derive(parsed, row(), settings);
+}
+
+TEST(Sharing, equalInitialShapesAreOne) {
+  const std::string house =
+      "attr h = 6\nLot --> print(geometry.area) extrude(h) split(x) { ~2 : Bay }*\n"
+      "Bay --> split(y) { ~3 : Box. }*\n";
+  const Model one = rowOf(house, 1);
+  // Two lots, and the bays, which are as wide in both.
+  EXPECT_EQ(one.statistics().prototypes, 3u);
+  EXPECT_EQ(one.leafCount(), 2u * (3 * 5 + 6));
+  EXPECT_EQ(one.prints().size(), 4u);
+  for (const unsigned jobs : {1u, 2u, 3u}) {
+    const Model other = rowOf(house, jobs);
+    EXPECT_EQ(other.drawList(), one.drawList());
+    EXPECT_EQ(other.dump(), one.dump());
+    EXPECT_EQ(other.statistics().shapes, one.statistics().shapes);
+    EXPECT_EQ(other.prints(), one.prints());
+  }
+  const Model flat = rowOf(house, 1, false);
+  EXPECT_EQ(flat.dump(), one.dump());
+  EXPECT_EQ(flat.statistics().shapes, one.statistics().shapes);
+}
+
+TEST(Sharing, initialShapesThatRulesTellApartAreNotOne) {
+  const std::string bays = "split(x) { ~2 : Bay }*\nBay --> split(y) { ~3 : Box. }*\n";
+  EXPECT_EQ(rowOf("Lot --> extrude(6 + initialShape.origin.px) " + bays, 1).statistics().prototypes,
+            5u);
+  EXPECT_GT(rowOf("Lot --> extrude(rand(6, 9)) " + bays, 1).statistics().prototypes, 7u);
+}
+
 std::string codes(const Model& model) {
   std::string out;
   for (const Diagnostic& m : model.diagnostics()) out += m.code + ' ';
