@@ -44,7 +44,6 @@ struct BuildingShell {
 /// LoD 2.2. Faces that rise too steeply to be seen from above, and what is less than `kLeastRoof`
 /// above `base`, are no roofs. Empty where nothing is left.
 std::vector<BuildingShell> shellsOf(std::span<const TopFace> faces, double base);
-constexpr double kLeastRoof = 1.5;
 
 /// LoD 1.2: a block of the same outline and the same volume.
 BuildingShell blockOf(const BuildingShell& shell);

@@ -16,8 +16,7 @@ class Collector {
       : scene_(scene), parts_(parts), faces_(faces), kindOfShape_(kindOfShape) {}
 
   CityContent collect(const Root& root) {
-    parts_.settleTrim(scene_, root, faces_, [&](const Instance& in) { return standsAlone(in); });
-    parts_.begin();
+    parts_.settle(scene_, root, faces_, kindOfShape_);
     if (!enters(root.instance, root.instance.frame)) return std::move(out_);
     std::vector<uint32_t> placements;
     const auto open = [&](const Frame& at, size_t level) {
@@ -39,16 +38,10 @@ class Collector {
   }
 
  private:
-  // An object as a whole.
-  bool standsAlone(const Instance& in) {
-    const std::optional<CityPart> part = parts_.whole(in.prototype);
-    return part && isSolitary(part->kind);
-  }
-
+  // False for what is an object as a whole.
   bool enters(const Instance& in, const Frame& at) {
-    if (!standsAlone(in)) return true;
-    const std::optional<CityPart> part = parts_.whole(in.prototype);
-    run_.end();
+    const std::optional<CityPart> part = parts_.solitary(in.prototype);
+    if (!part) return true;
     out_.instances.push_back({*part, in.prototype, at});
     parts_.skip(in.prototype);
     return false;
@@ -56,19 +49,15 @@ class Collector {
 
   void add(const PlannedLeaf& planned) {
     const Leaf& leaf = scene_.leaves[planned.leaf];
-    CityPart part = partWithin(parts_.next(leaf), kindOfShape_);
-    part.storey = 0;
+    const CityPart part = parts_.next(leaf);
     PlacedPart placed{planned, part.kind, 0};
     CityObjectKey key;
     key.object = part.object;
     if (specOf(part.kind).object) key.kind = part.kind;
     if (isSolitary(part.kind) || isOpening(part.kind)) {
-      const Frame world = out_.placements[planned.placement] * leaf.frame;
-      if (run_.begins(part, faces_.boxOf(leaf, world))) ++runs_;
+      if (parts_.begins()) ++runs_;
       placed.run = runs_;
       if (isSolitary(part.kind) && part.object == 0) key.run = runs_;
-    } else {
-      run_.end();
     }
     const auto [at, isNew] = known_.try_emplace(key, out_.objects.size());
     if (isNew) out_.objects.push_back({key, {}});
@@ -83,29 +72,10 @@ class Collector {
   CityKind kindOfShape_;
   CityContent out_;
   std::map<CityObjectKey, size_t> known_;
-  CityRun run_;
   uint32_t runs_ = 0;
 };
 
 }  // namespace
-
-CityPart partWithin(CityPart part, CityKind kindOfShape) {
-  const bool says = part.kind != CityKind::Unknown;
-  const bool takesShape = !says || (!isOfBuilding(kindOfShape) && isOfBuilding(part.kind));
-  if (kindOfShape == CityKind::Unknown || !takesShape) return part;
-  part.kind = kindOfShape;
-  part.shape = 0;
-  return part;
-}
-
-bool CityRun::begins(const CityPart& part, const Box3& box) {
-  const bool follows = open_ && part == part_ && (part.shape != 0 || touch(box_, box));
-  if (!follows) box_ = Box3{};
-  open_ = true;
-  part_ = part;
-  box_.include(box);
-  return !follows;
-}
 
 CityKind kindOfShape(const std::string& name, const std::vector<AttributeValue>& attributes) {
   for (const AttributeValue& a : attributes) {

@@ -25,9 +25,6 @@ CityKind kindOfShape(const std::string& name, const std::vector<AttributeValue>&
 /// several shapes may be of one thing of a map.
 std::string titleOfShape(const std::string& name, const std::vector<AttributeValue>& attributes);
 
-/// What a leaf or a prototype of a shape of that kind is: a shape that is no building makes none.
-CityPart partWithin(CityPart part, CityKind kindOfShape);
-
 /// The kind of a shape, or Land where nothing of a building stands on its ground.
 CityKind kindOrLand(const Scene& scene, RootParts& parts, const Root& root, CityKind kind);
 
@@ -67,22 +64,6 @@ struct CityContent {
   /// In the order in which they first come.
   std::vector<CityObjectContent> objects;
   std::vector<CityInstance> instances;
-};
-
-/// Leaves that follow each other in path order, are of one part and touch, or are of one labelled
-/// shape: one window, one tree.
-class CityRun {
- public:
-  /// True where the next leaf begins a new one.
-  bool begins(const CityPart& part, const Box3& box);
-  /// The next leaf is of none.
-  void end() { open_ = false; }
-  const Box3& box() const { return box_; }
-
- private:
-  bool open_ = false;
-  CityPart part_;
-  Box3 box_;
 };
 
 /// O(n log n) in the leaves of the shape, instances expanded.

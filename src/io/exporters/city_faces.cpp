@@ -14,10 +14,6 @@ namespace {
 // Metres that a corner may lie beside the plane of its face, well below what checkers of city
 // models allow (a centimetre).
 constexpr double kFlat = 0.002;
-// How far above the lowest point of a building its ground may be, in metres.
-constexpr double kGround = 0.3;
-// Metres between leaves that touch.
-constexpr double kTouching = 0.05;
 
 bool isNear(const Vec3& p) {
   return std::fabs(p.x) < kFarthestCity && std::fabs(p.y) < kFarthestCity &&
@@ -36,12 +32,14 @@ Vec3 ringNormal(const std::vector<Vec3>& ring) {
 
 CityKind kindBySight(const CityFace& face, double foot) {
   const double up = face.normal.y / length(face.normal);
-  if (up > kCityUp) return CityKind::Roof;
+  const auto isBelow = [&](double height) {
+    const std::vector<Vec3>& ring = face.rings[0];
+    return std::all_of(ring.begin(), ring.end(),
+                       [&](const Vec3& p) { return p.y <= foot + height; });
+  };
+  if (up > kCityUp) return isBelow(kLeastRoof) ? CityKind::Floor : CityKind::Roof;
   if (up >= -kCityUp) return CityKind::Wall;
-  const std::vector<Vec3>& ring = face.rings[0];
-  const bool low =
-      std::all_of(ring.begin(), ring.end(), [&](const Vec3& p) { return p.y <= foot + kGround; });
-  return low ? CityKind::Ground : CityKind::Ceiling;
+  return isBelow(kCityGround) ? CityKind::Ground : CityKind::Ceiling;
 }
 
 void CitySights::add(const CityFace& face, double foot) {
@@ -56,13 +54,6 @@ CityKind CitySights::oneWay() const {
     if (area >= all * kNearlyAll) return kind;
   }
   return CityKind::Unknown;
-}
-
-bool touch(const Box3& a, const Box3& b) {
-  for (size_t i = 0; i < 3; ++i) {
-    if (a.min[i] > b.max[i] + kTouching || b.min[i] > a.max[i] + kTouching) return false;
-  }
-  return true;
 }
 
 bool CityFaces::isFlat(const CityFace& face) const {

@@ -35,8 +35,12 @@ Vec3 ringNormal(const std::vector<Vec3>& ring);
 /// More looks up, less than its negative down: the upward part of a unit normal.
 constexpr double kCityUp = 0.3;
 
-/// What a face of a building is by where it looks: Roof upwards, Wall to the side, downwards Ground
-/// at the foot of the building, `foot`, and Ceiling above it.
+/// How far above the lowest point of a building its ground may be, and below which height above it
+/// nothing is a roof, in metres.
+constexpr double kCityGround = 0.3, kLeastRoof = 1.5;
+
+/// What a face of a building is by where it looks: upwards Roof, or Floor near the foot of the
+/// building, `foot`; Wall to the side; downwards Ground at the foot and Ceiling above it.
 CityKind kindBySight(const CityFace& face, double foot);
 
 /// What several faces are by where they look.
@@ -50,9 +54,6 @@ class CitySights {
  private:
   std::map<CityKind, double> areas_;
 };
-
-/// Boxes that touch, or are less than five centimetres apart.
-bool touch(const Box3& a, const Box3& b);
 
 class CityFaces {
  public:

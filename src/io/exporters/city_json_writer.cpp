@@ -194,8 +194,8 @@ Box3 CityJsonWriter::boxOf(const CityObjectContent& object, const CityContent& c
 // By the table of kinds; what it leaves open, and floors, by where the face looks.
 const char* CityJsonWriter::surfaceOf(CityKind kind, const CityFace& face, double base) const {
   const CityKind sight = kindBySight(face, base);
-  if (kind == CityKind::Floor || kind == CityKind::Ceiling || kind == CityKind::Ground) {
-    if (sight == CityKind::Roof) return "OuterFloorSurface";
+  if (isLevel(kind)) {
+    if (sight == CityKind::Roof || sight == CityKind::Floor) return "OuterFloorSurface";
     if (sight == CityKind::Wall) return "WallSurface";
     return kind == CityKind::Ground ? "GroundSurface" : "OuterCeilingSurface";
   }

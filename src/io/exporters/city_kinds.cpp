@@ -21,7 +21,7 @@ constexpr CityKindSpec kSpecs[kCityKinds] = {
      "wall walls facade facades siding stucco plaster masonry gable spandrel"},
     {"Roof", "RoofSurface", nullptr, "IfcRoof",
      "roof roofs roofing dormer ridge thatch slate slates shingle shingles"},
-    {"Floor", "OuterFloorSurface", nullptr, "IfcSlab", "slab slabs deck balcony terrace"},
+    {"Floor", "OuterFloorSurface", nullptr, "IfcSlab", "slab slabs deck terrace"},
     {"Ground", "GroundSurface", nullptr, "IfcSlab", "foundation ground"},
     {"Ceiling", "OuterCeilingSurface", nullptr, "IfcCovering", "ceiling ceilings soffit"},
     {"Window", "Window", nullptr, "IfcWindow",
@@ -30,7 +30,7 @@ constexpr CityKindSpec kSpecs[kCityKinds] = {
     {"Covering", nullptr, nullptr, "IfcCovering", "covering cladding"},
     {"Stair", nullptr, "BuildingInstallation", "IfcStair", "stair stairs staircase step steps"},
     {"Railing", nullptr, "BuildingInstallation", "IfcRailing",
-     "railing railings handrail balustrade baluster balusters"},
+     "railing railings rail handrail balustrade baluster balusters"},
     {"Column", nullptr, "BuildingConstructiveElement", "IfcColumn",
      "column columns pillar pillars pilaster pilasters"},
     {"Beam", nullptr, "BuildingConstructiveElement", "IfcBeam",
@@ -38,6 +38,8 @@ constexpr CityKindSpec kSpecs[kCityKinds] = {
     {"Chimney", nullptr, "BuildingInstallation", "IfcChimney", "chimney chimneys"},
     {"Installation", nullptr, "BuildingInstallation", "IfcBuildingElementProxy",
      "installation antenna awning"},
+    {"Balcony", "OuterFloorSurface", "BuildingInstallation", "IfcSlab",
+     "balcony balconies loggia loggias"},
     {"Closure", "ClosureSurface", nullptr, "IfcBuildingElementProxy", "closure"},
     {"Furniture", nullptr, "BuildingFurniture", "IfcFurniture",
      "furniture chair chairs sofa cupboard"},
@@ -48,11 +50,13 @@ constexpr CityKindSpec kSpecs[kCityKinds] = {
     {"Plants", nullptr, "PlantCover", "IfcGeographicElement",
      "plants grass lawn meadow hedge flowers flowerbed"},
     {"Road", nullptr, "Road", "IfcGeographicElement",
-     "road roads street carriageway junction sidewalk pavement kerb curb asphalt path"},
-    {"Square", nullptr, "TransportSquare", "IfcGeographicElement", "square paving parking"},
+     "road roads street carriageway junction sidewalk pavement kerb curb asphalt path driveway"},
+    {"Square", nullptr, "TransportSquare", "IfcGeographicElement",
+     "square paving parking courtyard forecourt patio plaza"},
     {"Railway", nullptr, "Railway", "IfcGeographicElement", "railway rails sleeper"},
     {"Water", nullptr, "WaterBody", "IfcGeographicElement", "water sea lake pond pool river"},
-    {"Land", nullptr, "LandUse", "IfcGeographicElement", "land lot yard soil earth field sand"},
+    {"Land", nullptr, "LandUse", "IfcGeographicElement",
+     "land lot yard garden gardens soil earth field sand"},
     {"Bridge", nullptr, "Bridge", "IfcCivilElement", "bridge"},
     {"Tunnel", nullptr, "Tunnel", "IfcCivilElement", "tunnel"},
     {"Construction", nullptr, "OtherConstruction", "IfcBuildingElementProxy", "construction"},
@@ -118,6 +122,11 @@ bool isSolitary(CityKind kind) {
 bool isOpening(CityKind kind) { return kind == CityKind::Window || kind == CityKind::Door; }
 
 bool holdsOpenings(CityKind kind) { return kind == CityKind::Wall || kind == CityKind::Roof; }
+
+bool isLevel(CityKind kind) {
+  return kind == CityKind::Floor || kind == CityKind::Balcony || kind == CityKind::Ceiling ||
+         kind == CityKind::Ground;
+}
 
 CityKind cityKindNamed(std::string_view name) {
   for (size_t k = 1; k < kCityKinds; ++k) {
@@ -233,8 +242,7 @@ CityParts::CityParts(const Scene& scene) {
   bodies_.resize(scene.meshes.size());
   for (const Leaf& l : scene.leaves) {
     work();
-    const bool isLot = (l.name < names_.size() && names_[l.name].isLot) ||
-                       (l.source < sources_.size() && sources_[l.source].isLot);
+    const bool isLot = l.name < names_.size() && names_[l.name].isLot;
     std::optional<double>& height = bodies_[l.mesh];
     if (isLot && !height) height = heightOfBody(*scene.meshes[l.mesh]);
   }
@@ -296,13 +304,24 @@ CityPart CityParts::of(const Leaf& leaf) const {
     part.kind = kindOf(names_[leaf.name], leaf);
   }
   if (part.kind != CityKind::Unknown) return part;
-  if (leaf.source < sources_.size()) part.kind = kindOf(sources_[leaf.source], leaf);
+  if (leaf.source < sources_.size() && !sources_[leaf.source].isLot) {
+    part.kind = sources_[leaf.source].kind;
+  }
   const bool isTrimmed = part.kind == CityKind::Unknown || part.kind == CityKind::Wall;
   if (!isTrimmed || leaf.name >= trims_.size()) return part;
   if (const CityKind trim = trims_[leaf.name]; trim != CityKind::Unknown) {
     part.kind = trim;
     part.trim = true;
   }
+  return part;
+}
+
+CityPart partWithin(CityPart part, CityKind kindOfShape) {
+  const bool says = part.kind != CityKind::Unknown;
+  const bool takesShape = !says || (!isOfBuilding(kindOfShape) && isOfBuilding(part.kind));
+  if (kindOfShape == CityKind::Unknown || !takesShape) return part;
+  part.kind = kindOfShape;
+  part.shape = 0;
   return part;
 }
 

@@ -42,6 +42,7 @@ enum class CityKind : uint8_t {
   Beam,
   Chimney,
   Installation,
+  Balcony,
   Closure,
   Furniture,
   StreetFurniture,
@@ -56,7 +57,7 @@ enum class CityKind : uint8_t {
   Tunnel,
   Construction,
 };
-constexpr size_t kCityKinds = 28;
+constexpr size_t kCityKinds = 29;
 
 struct CityKindSpec {
   /// As rules write it.
@@ -80,14 +81,17 @@ bool isOpening(CityKind kind);
 /// Openings are in it: walls and roofs.
 bool holdsOpenings(CityKind kind);
 
+/// Looks up or down by nature: floors, balconies, ceilings and ground.
+bool isLevel(CityKind kind);
+
 /// A kind by a name of its row, whatever the case of its letters; Unknown for any other text.
 CityKind cityKindNamed(std::string_view name);
 /// What the last telling word of an identifier says, without the import before its dot.
 struct CityWord {
   /// Unknown where no word tells.
   CityKind kind = CityKind::Unknown;
-  /// The word is "lot". Rules begin with a lot, so it says land of what is flat alone:
-  /// `Lot --> extrude(9)` is a house.
+  /// The word is "lot". Rules begin with a lot, so it says land of what is called so and flat:
+  /// `Lot --> extrude(9)` is a house, and what its rule makes besides is anything.
   bool isLot = false;
 };
 CityWord cityWordOf(std::string_view name);
@@ -119,6 +123,9 @@ struct CityPart {
 /// What two leaves that touch are together, where they are of one thing: of one part, or one is
 /// trim of the other. Two that are trim are a window where one of them is of a window.
 std::optional<CityPart> partOfBoth(const CityPart& a, const CityPart& b);
+
+/// What a leaf or a prototype of a shape of that kind is: a shape that is no building makes none.
+CityPart partWithin(CityPart part, CityKind kindOfShape);
 
 /// The parts of a scene's leaves, as names and attributes say them.
 class CityParts {

@@ -570,6 +570,79 @@ TEST(Ifc, trimIsOfWhatItTouches) {
   EXPECT_EQ(countOf(text, ",1.1,1.2,.NOTDEFINED."), 2u);
 }
 
+// A pane is set back behind its frame, and a rail holds balusters that stand apart; however the
+// house is turned, in both formats, and whether parts are shared or not.
+TEST(CityRuns, elementsAreThoseOfTheTurnedHouse) {
+  for (const double degrees : {0.0, 10.0, 45.0}) {
+    for (const bool shares : {false, true}) {
+      City c;
+      c.box("Frame", {0, 0, 0}, {0.07, 1.4, 0.04});
+      const uint32_t bar = c.prototype("Bar");
+      for (const double at : {0.0, 3.0}) {
+        const auto frame = [&](double x) {
+          if (shares)
+            c.instance(bar, Frame::moved({at + x, 1, 0}));
+          else
+            c.box("Frame", {at + x, 1, 0}, {0.07, 1.4, 0.04});
+        };
+        c.box("Wall", {at - 1, 0, 0}, {1, 3, 0.3});
+        frame(0);
+        c.box("Pane", {at + 0.07, 1, -0.1}, {1.06, 1.4, 0.01});
+        frame(1.13);
+      }
+      for (int i = 0; i < 10; ++i) c.box("Baluster", {i * 0.15, 0, 5}, {0.03, 0.9, 0.03});
+      c.box("Handrail", {0, 0.9, 5}, {1.4, 0.05, 0.05});
+      c.root("a", c.prototype("Lot"), testing::turned(degrees, {100, 2, -50}));
+      const std::string path = inWritten("turned.ifc");
+      ASSERT_TRUE(writeModel(c.scene, path, {}).ok());
+      const std::string text = readFile(path).value();
+      EXPECT_EQ(countOf(text, "=IFCWINDOW("), 2u) << degrees << shares;
+      EXPECT_EQ(countOf(text, ",1.4,1.2,.NOTDEFINED."), 2u) << degrees << shares;
+      EXPECT_EQ(countOf(text, "=IFCRAILING("), 1u) << degrees << shares;
+      const JsonValue model = written(c.scene, "turned.city.json");
+      size_t windows = 0;
+      for (const auto& [id, object] : model["CityObjects"].members()) {
+        for (const JsonValue& g : object["geometry"].items()) {
+          for (const JsonValue& surface : g["semantics"]["surfaces"].items()) {
+            windows += g["lod"].text() == "3" && surface["type"].text() == "Window";
+          }
+        }
+      }
+      EXPECT_EQ(windows, 2u) << degrees << shares;
+    }
+  }
+}
+
+// A lawn without a name that says it is no roof, and what a rule called Lot makes in the air is no
+// land.
+TEST(CityJsonWriter, whatLiesAtTheFootIsLand) {
+  City c;
+  c.scene.sources = {{}, {"rules.cga", 9, 1, "Lot"}};
+  c.box("Wall", {0, 0, 0}, {9, 6, 9});
+  Leaf& lawn = c.leaf(kUnitQuadXz, Frame::moved({-5, 0, -5}), {20, 1, 20});
+  lawn.name = c.name("Green");
+  lawn.source = 1;
+  c.box("Ramp", {3, 3, 9}, {2, 0.1, 1});
+  c.root("a", c.prototype("Lot"), Frame{});
+  const JsonValue model = written(c.scene, "lawn.city.json");
+  ASSERT_EQ(model["CityObjects"].members().size(), 2u);
+  EXPECT_EQ(model["CityObjects"]["a"]["type"].text(), "Building");
+  EXPECT_EQ(model["CityObjects"]["a/Land"]["type"].text(), "LandUse");
+}
+
+TEST(CityJsonWriter, balconiesAreInstallations) {
+  City c;
+  c.box("Wall", {0, 0, 0}, {9, 6, 9});
+  c.box("Balcony", {2, 3, 9}, {4, 0.2, 1.5});
+  c.root("a", c.prototype("Lot"), Frame{});
+  const JsonValue model = written(c.scene, "balcony.city.json");
+  EXPECT_EQ(model["CityObjects"]["a/Balcony"]["type"].text(), "BuildingInstallation");
+  // The block of the building ends at its walls: it has six faces.
+  const JsonValue& block = model["CityObjects"]["a"]["geometry"].at(0);
+  EXPECT_EQ(block["lod"].text(), "1.2");
+  EXPECT_EQ(block["boundaries"].at(0).items().size(), 6u);
+}
+
 // In a labelled wall a sill is of the window that it touches, else of the wall.
 TEST(Ifc, trimInALabelledWall) {
   City c;

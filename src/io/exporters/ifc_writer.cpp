@@ -17,7 +17,6 @@
 #include "base/hash.h"
 #include "base/number.h"
 #include "base/work.h"
-#include "io/exporters/city_blocks.h"
 #include "io/exporters/city_content.h"
 #include "io/exporters/city_place.h"
 #include "io/exporters/ifc_elements.h"
@@ -74,14 +73,12 @@ class IfcWriter {
   void writePlaceOnEarth(StepId context);
   void writeSite();
   void writeRoot(uint32_t root);
-  void measure(const Root& root, CityKind kind);
+  void measure(const Root& root);
   void openBuilding();
   void closeBuilding(const Attributes& known);
   void look(const Leaf& leaf, const Frame& world);
-  CityKind kindBySight(const Box3& box) const;
   void tellProxies();
-  void addLeaf(uint32_t leaf, const Frame& world, CityKind kindOfShape);
-  bool standsAlone(const Instance& in);
+  void addLeaf(uint32_t leaf, const Frame& around);
   void addInstance(const Instance& in, const Frame& world, const CityPart& part);
   void endElement();
   const Mapped& mappedOf(uint32_t prototype);
@@ -130,7 +127,6 @@ class IfcWriter {
   std::vector<Storey> storeys_;
   // The element at hand.
   IfcShape shape_;
-  CityRun run_;
   Element open_;
   bool nameIsTrim_ = false;
   // Where the element lies, the way there from the world, and that to its first leaf.
@@ -222,13 +218,13 @@ void IfcWriter::writeSite() {
 
 // ---- Buildings ----------------------------------------------------------------------------------
 
-void IfcWriter::measure(const Root& root, CityKind kind) {
+void IfcWriter::measure(const Root& root) {
   levels_.clear();
   builds_ = false;
   parts_.begin();
   forEachLeaf(scene_, scene_.prototypes[root.instance.prototype], root.instance.frame,
               [&](const Leaf& leaf, const Frame& world) {
-                const CityPart part = partWithin(parts_.next(leaf), kind);
+                const CityPart part = parts_.next(leaf);
                 if (!isOfBuilding(part.kind)) return;
                 builds_ = true;
                 levels_.add(leaf, world, part);
@@ -290,7 +286,8 @@ std::string IfcWriter::tailOf(const CityPart& part, const Vec3& size) const {
       const std::string wide = stepReal(std::round(std::max(size.x, size.z) * 1e5) / 1e5);
       return "," + tall + "," + wide + ",.NOTDEFINED.,.NOTDEFINED.,$)";
     }
-    case CityKind::Floor: return ",.FLOOR.)";
+    case CityKind::Floor:
+    case CityKind::Balcony: return ",.FLOOR.)";
     case CityKind::Ground: return ",.BASESLAB.)";
     case CityKind::Ceiling: return ",.CEILING.)";
     case CityKind::Covering: return part.trim ? ",.MOLDING.)" : ",.CLADDING.)";
@@ -311,7 +308,7 @@ void IfcWriter::putElement(const Element& e, StepId definition, const Frame& fra
   CityPart part = e.part;
   Storey* storey = nullptr;
   if (isOfBuilding(part.kind) && !storeys_.empty()) storey = &storeys_[levels_.of(part, e.box)];
-  if (part.kind == CityKind::Unknown) part.kind = kindBySight(e.box);
+  if (part.kind == CityKind::Unknown) part.kind = sights_.oneWay();
   const StepId around = storey ? storey->placement : sitePlacement_;
   const StepId axes = frame == Frame{} ? identity_ : axes_.axes(frame);
   const StepId placement =
@@ -334,26 +331,16 @@ void IfcWriter::endElement() {
   if (shape_.triangleCount() > 0) {
     report_.triangles += shape_.triangleCount();
     open_.material = shape_.parts().begin()->first;
-    open_.box = run_.box();
     open_.size = upright(ownBox_.size(), inverse(ownAxes_));
     putElement(open_, shapes_->definition(shape_), frame_);
   }
   shape_.clear();
   sights_.clear();
-  run_.end();
 }
 
 void IfcWriter::look(const Leaf& leaf, const Frame& world) {
   const double foot = levels_.bounds().min.y;
   faces_.forEach(leaf, world, [&](const CityFace& face) { sights_.add(face, foot); });
-}
-
-// Of the element at hand, whose kind nothing says. What looks up at the foot of a building is no
-// roof.
-CityKind IfcWriter::kindBySight(const Box3& box) const {
-  const CityKind kind = sights_.oneWay();
-  const bool low = box.max.y < levels_.bounds().min.y + kLeastRoof;
-  return kind == CityKind::Roof && low ? CityKind::Unknown : kind;
 }
 
 void IfcWriter::tellProxies() {
@@ -387,32 +374,28 @@ bool isNear(const Vec3& p) {
   return true;
 }
 
-void IfcWriter::addLeaf(uint32_t index, const Frame& around, CityKind kindOfShape) {
+void IfcWriter::addLeaf(uint32_t index, const Frame& around) {
   const Leaf& leaf = scene_.leaves[index];
   const Frame world = around * leaf.frame;
-  const CityPart part = partWithin(parts_.next(leaf), kindOfShape);
+  const CityPart part = parts_.next(leaf);
   const Box3 box = faces_.boxOf(leaf, world);
   const bool isTrim = kinds_.of(leaf).trim;
-  // Of what is unknown the name is all that there is.
-  const bool other = part.kind == CityKind::Unknown && leaf.name != open_.name;
-  CityRun next = run_;
-  if (other) next.end();
-  if (next.begins(part, box) || shape_.triangleCount() > kMostTriangles) {
+  if (parts_.begins() || shape_.triangleCount() > kMostTriangles) {
     endElement();
-    run_.begins(part, box);
     open_.part = part;
+    open_.box = Box3{};
     open_.name = leaf.name;
     nameIsTrim_ = isTrim;
     frame_ = isNear(world.origin) ? world : Frame{};
     ownAxes_ = inverse(world);
     toFrame_ = inverse(frame_);
     ownBox_ = Box3{};
-  } else {
-    run_ = next;
+  } else if (nameIsTrim_ && !isTrim) {
     // A window has the name of its pane, not of its sill.
-    if (nameIsTrim_ && !isTrim) open_.name = leaf.name;
-    nameIsTrim_ = nameIsTrim_ && isTrim;
+    open_.name = leaf.name;
+    nameIsTrim_ = false;
   }
+  open_.box.include(box);
   if (part.kind == CityKind::Unknown) look(leaf, world);
   ownBox_.include(faces_.boxOf(leaf, ownAxes_ * world));
   shape_.add(leaf, toFrame_ * world);
@@ -434,13 +417,6 @@ const IfcWriter::Mapped& IfcWriter::mappedOf(uint32_t prototype) {
   m.map = file_.add("IFCREPRESENTATIONMAP(" + stepRef(identity_) + "," +
                     stepRef(shapes_->representation(shape)) + ")");
   return m;
-}
-
-// Trim is part of the element that it touches.
-bool IfcWriter::standsAlone(const Instance& in) {
-  if (kinds_.uses(in.prototype) < 2) return false;
-  const std::optional<CityPart> part = parts_.whole(in.prototype);
-  return part && !part->trim;
 }
 
 void IfcWriter::addInstance(const Instance& in, const Frame& world, const CityPart& part) {
@@ -469,8 +445,8 @@ void IfcWriter::writeRoot(uint32_t number) {
   const std::string& name = root.name < scene_.names.size() ? scene_.names[root.name] : path_;
   parts_.open(options_.labelsOf ? options_.labelsOf(number) : std::vector<LabelledLeaves>{});
   const CityKind kind = kindOrLand(scene_, parts_, root, kindOfShape(name, known));
-  parts_.settleTrim(scene_, root, faces_, [&](const Instance& in) { return standsAlone(in); });
-  measure(root, kind);
+  parts_.settle(scene_, root, faces_, kind);
+  measure(root);
   levels_.divide(storeyCountOf(known));
   const std::string title = titleOfShape(name, known);
   buildingName_ = stepText(title, kMostLabel);
@@ -478,8 +454,9 @@ void IfcWriter::writeRoot(uint32_t number) {
   rootNumber_ = hashBytes(title, ++titles_[title]);
   if (builds_) openBuilding();
   const auto enter = [&](const Instance& in, const Frame& world) {
-    if (!standsAlone(in)) return true;
-    addInstance(in, world, partWithin(*parts_.whole(in.prototype), kind));
+    const std::optional<CityPart> part = parts_.element(in.prototype);
+    if (!part || (kinds_.uses(in.prototype) < 2 && !isSolitary(part->kind))) return true;
+    addInstance(in, world, partWithin(*part, kind));
     parts_.skip(in.prototype);
     return false;
   };
@@ -488,7 +465,7 @@ void IfcWriter::writeRoot(uint32_t number) {
     walk(
         scene_, scene_.prototypes[root.instance.prototype], root.instance.frame,
         [&](uint32_t leaf, const Frame& at, size_t) {
-          if (!file_.failed()) addLeaf(leaf, at, kind);
+          if (!file_.failed()) addLeaf(leaf, at);
         },
         [&](const Instance& in, const Frame& at, size_t) {
           return !file_.failed() && enter(in, at);

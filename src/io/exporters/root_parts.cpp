@@ -2,88 +2,86 @@
 // SPDX-FileCopyrightText: The Gable authors
 #include "io/exporters/root_parts.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "base/work.h"
 #include "scene/flatten.h"
 
 namespace gable {
 
-// Leaves that follow each other, touch, and are of one thing.
-class RootParts::TrimRun {
- public:
-  explicit TrimRun(std::vector<std::pair<uint64_t, CityPart>>& settled) : settled_(settled) {}
+namespace {
 
-  void take(uint64_t leaf, const CityPart& part, const Box3& box) {
-    const std::optional<CityPart> both =
-        open_ && touch(box_, box) ? partOfBoth(of_, part) : std::nullopt;
-    if (!both) end();
-    of_ = both.value_or(part);
-    box_.include(box);
-    open_ = true;
-    if (part.trim) waiting_.push_back(leaf);
-    if (of_.trim) return;
-    settle();
-  }
-  void end() {
-    settle();
-    open_ = false;
-    box_ = Box3{};
-  }
-
- private:
-  void settle() {
-    // A sill with nothing beside it is what its name or its label says.
-    if (of_.trim && of_.kind != CityKind::Window) waiting_.clear();
-    for (const uint64_t leaf : waiting_) settled_.emplace_back(leaf, of_);
-    waiting_.clear();
-  }
-
-  std::vector<std::pair<uint64_t, CityPart>>& settled_;
-  std::vector<uint64_t> waiting_;
-  bool open_ = false;
-  CityPart of_;
-  Box3 box_;
-};
-
-void RootParts::settleTrim(const Scene& scene, const Root& root, CityFaces& faces,
-                           const std::function<bool(const Instance&)>& standsAlone) {
-  settled_.clear();
-  begin();
-  if (!kinds_.hasTrim()) return;
-  std::vector<std::pair<uint64_t, CityPart>> found;
-  TrimRun run(found);
-  const auto enter = [&](const Instance& in) {
-    if (!standsAlone(in)) return true;
-    run.end();
-    skip(in.prototype);
-    return false;
-  };
-  if (enter(root.instance)) {
-    walk(
-        scene, scene.prototypes[root.instance.prototype], root.instance.frame,
-        [&](uint32_t index, const Frame& at, size_t) {
-          const Leaf& leaf = scene.leaves[index];
-          const Label* label = this->label();
-          // What a label says of trim counts where it touches nothing that says more.
-          const CityPart named = kinds_.of(leaf);
-          const bool isTrim = named.trim && (!label || holdsOpenings(label->kind));
-          run.take(at_, isTrim ? named : partOf(leaf, label), faces.boxOf(leaf, at * leaf.frame));
-          ++at_;
-        },
-        [&](const Instance& in, const Frame&, size_t) { return enter(in); });
-  }
-  run.end();
-  settled_ = std::move(found);
+// A sheet that looks up and lies at the foot of a building is what stands around it: a lawn.
+bool liesAtFoot(const Leaf& leaf, const Frame& world, CityFaces& faces, double foot) {
+  constexpr double kSheet = 0.05;
+  const Box3 box = faces.boxOf(leaf, world);
+  if (box.size().y > kSheet || box.max.y > foot + kCityGround) return false;
+  bool up = false, down = false;
+  faces.forEach(leaf, world, [&](const CityFace& face) { (face.normal.y > 0 ? up : down) = true; });
+  return up && !down;
 }
 
-const CityPart* RootParts::settled() {
-  while (nextSettled_ < settled_.size() && settled_[nextSettled_].first < at_) ++nextSettled_;
-  const bool is = nextSettled_ < settled_.size() && settled_[nextSettled_].first == at_;
-  return is ? &settled_[nextSettled_].second : nullptr;
+}  // namespace
+
+double RootParts::footOf(const Scene& scene, const Root& root, CityFaces& faces) {
+  double foot = std::numeric_limits<double>::infinity();
+  begin();
+  forEachLeaf(scene, scene.prototypes[root.instance.prototype], root.instance.frame,
+              [&](const Leaf& leaf, const Frame& world) {
+                if (isOfBuilding(next(leaf).kind)) {
+                  foot = std::min(foot, faces.boxOf(leaf, world).min.y);
+                }
+              });
+  return foot;
+}
+
+void RootParts::settle(const Scene& scene, const Root& root, CityFaces& faces,
+                       CityKind kindOfShape) {
+  runs_.reset();
+  const double foot = footOf(scene, root, faces);
+  CityRuns runs(faces);
+  // Behind the last leaf of the instance at hand that is of one opening.
+  uint64_t end = 0;
+  const auto enter = [&](const Instance& in) {
+    if (const std::optional<CityPart> part = solitary(in.prototype)) {
+      runs.skip(kinds_.leafCount(in.prototype), *part);
+      skip(in.prototype);
+      return false;
+    }
+    const std::optional<CityPart> part = at_ < end ? std::nullopt : whole(in.prototype);
+    if (part && isOpening(part->kind) && !part->trim) {
+      runs.end();
+      end = at_ + kinds_.leafCount(in.prototype);
+    }
+    return true;
+  };
+  const auto take = [&](uint32_t index, const Frame& around, size_t) {
+    const Leaf& leaf = scene.leaves[index];
+    const Frame world = around * leaf.frame;
+    const Label* label = this->label();
+    CityPart said = partWithin(partOf(leaf, label), kindOfShape);
+    const bool isOpen = said.kind == CityKind::Unknown || said.kind == CityKind::Ground;
+    if (isOpen && liesAtFoot(leaf, world, faces, foot)) said.kind = CityKind::Land;
+    // What a label says of trim counts where it touches nothing that says more.
+    const CityPart named = partWithin(kinds_.of(leaf), kindOfShape);
+    const bool isTrim = named.trim && (!label || holdsOpenings(label->kind));
+    runs.take(isTrim ? named : said, said, leaf, world);
+    if (++at_ == end) runs.end();
+  };
+  begin();
+  if (enter(root.instance)) {
+    walk(scene, scene.prototypes[root.instance.prototype], root.instance.frame, take,
+         [&](const Instance& in, const Frame&, size_t) { return enter(in); });
+  }
+  runs.end();
+  runs_.emplace(std::move(runs));
+  begin();
 }
 
 void RootParts::open(const std::vector<LabelledLeaves>& labels) {
   labels_.clear();
-  settled_.clear();
+  runs_.reset();
   for (const LabelledLeaves& l : labels) {
     work();
     const CityKind kind = cityKindOfLabel(l.label);
@@ -95,7 +93,6 @@ void RootParts::open(const std::vector<LabelledLeaves>& labels) {
 void RootParts::begin() {
   at_ = 0;
   near_ = 0;
-  nextSettled_ = 0;
 }
 
 const RootParts::Label* RootParts::label() {
@@ -118,9 +115,19 @@ CityPart RootParts::partOf(const Leaf& leaf, const Label* label) const {
 
 CityPart RootParts::next(const Leaf& leaf) {
   const Label* label = this->label();
-  const CityPart* settled = this->settled();
-  ++at_;
-  return settled ? *settled : partOf(leaf, label);
+  const uint64_t at = at_++;
+  return runs_ ? runs_->part(at) : partOf(leaf, label);
+}
+
+std::optional<CityPart> RootParts::solitary(uint32_t prototype) {
+  const std::optional<CityPart> part = whole(prototype);
+  return part && isSolitary(part->kind) ? part : std::nullopt;
+}
+
+std::optional<CityPart> RootParts::element(uint32_t prototype) {
+  const uint64_t count = kinds_.leafCount(prototype);
+  if (const auto part = solitary(prototype)) return part;
+  return runs_ && runs_->isOne(at_, count) ? std::optional(runs_->part(at_)) : std::nullopt;
 }
 
 std::optional<CityPart> RootParts::whole(uint32_t prototype) {
