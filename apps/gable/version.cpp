@@ -19,8 +19,8 @@ constexpr Meaning kMeanings[] = {
     {kExitUsage, "the command line is wrong"},
     {kExitFile, "a file could not be read or written"},
     {kExitLimit,
-     "a limit or Ctrl-C ended it; what was made until then is written; of a picture only after a "
-     "limit"},
+     "a limit or Ctrl-C ended it; after a limit what was made until then is written, after Ctrl-C "
+     "only the files that were complete"},
 };
 
 std::string compilerText() {

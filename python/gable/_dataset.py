@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from gable import _gable
+from gable._derive import refuse_near
 from gable._messages import Error, Message, messages_of, one_of, path_text, warn_of
 from gable._model import LIGHTING
 from gable._rules import Rules
@@ -73,6 +74,7 @@ def dataset(
 
     Attributes of the rules, `jobs`, `progress` and Ctrl-C are as in `derive`.
     """
+    refuse_near(dataset, rules, more)
     words = {"placing": placing, "labels": labels, "format": format, "lighting": lighting}
     for name, word in words.items():
         one_of(name, word, _WORDS[name])

@@ -46,7 +46,7 @@ def derive(
     at_least("jobs", jobs, 1)
     at_least("seconds", seconds, 0)
     at_least("memory", memory, 0)
-    _refuse_near(rules, more)
+    refuse_near(derive, rules, more)
     values = {**(attributes or {}), **more}
     return Model(
         _gable.derive(
@@ -65,13 +65,13 @@ def derive(
     )
 
 
-def _refuse_near(rules: Rules, more: Mapping[str, Any]) -> None:
-    """Raises TypeError for a keyword that is near to an option, where the rules have no such attribute."""
+def refuse_near(function: Callable[..., Any], rules: Rules, more: Mapping[str, Any]) -> None:
+    """Raises TypeError for a keyword that is near to an option of a function, where the rules have no such attribute."""
     known = {attribute.name for attribute in rules.attributes}
     for name in more:
-        near = difflib.get_close_matches(name, derive.__kwdefaults__, 1)
+        near = difflib.get_close_matches(name, function.__kwdefaults__ or {}, 1)
         if near and name not in known and not difflib.get_close_matches(name, known, 1):
-            raise TypeError(f"derive has no {name!r}, and the rules have no such attribute; {near[0]!r} may be meant")
+            raise TypeError(f"{function.__name__} has no {name!r}, and the rules have no such attribute; {near[0]!r} may be meant")
 
 
 def _unknown(rules: Rules, shapes: Shapes) -> list[Message]:

@@ -11,13 +11,14 @@
 #include "engine/dataset.h"
 #include "engine/shape_record.h"
 #include "engine/tile_plan.h"
+#include "gable/names.h"
 
 namespace gable {
 
 namespace {
 
 /// Of the files of an item; a program with another one cannot go on with it.
-constexpr int kFormat = 2;
+constexpr int kFormat = 3;
 constexpr const char* kDescription = "dataset.json";
 constexpr const char* kLocks = "locks";
 
@@ -72,7 +73,8 @@ void writeSun(JsonWriter& w, const PictureSettings& p) {
 void writePicture(JsonWriter& w, const PictureSettings& p) {
   w.field("width", p.width).field("height", p.height).field("samples", p.samples);
   w.field("bounces", p.bounces).field("denoise", p.denoise);
-  w.field("look", static_cast<int>(p.look)).field("lighting", static_cast<int>(p.lighting));
+  w.field("look", lookNames()[static_cast<size_t>(p.look)]);
+  w.field("lighting", lightingNames()[static_cast<size_t>(p.lighting)]);
   writeSun(w, p);
   if (p.clouds > 0) w.field("clouds", p.clouds);
   w.field("haziness", p.haziness).field("lamps", p.lamps).field("turn", p.turn);
@@ -172,9 +174,11 @@ std::string descriptionOf(const Rules& rules, const Shapes& shapes, const Catego
   w.field("rules", checksumText(checksumOf(rules)));
   w.field("shapes", checksumText(checksumOf(shapes)));
   writeDerive(w, s.derive);
-  w.field("cameras", s.cameras).field("placing", static_cast<int>(s.placing));
+  w.field("cameras", s.cameras);
+  w.field("placing", datasetCamerasNames()[static_cast<size_t>(s.placing)]);
   w.field("zoom", s.zoom);
-  w.field("labels", static_cast<int>(s.labels)).field("list", static_cast<int>(s.format));
+  w.field("labels", datasetLabelsNames()[static_cast<size_t>(s.labels)]);
+  w.field("list", datasetFormatNames()[static_cast<size_t>(s.format)]);
   w.key("tags").beginArray();
   for (const std::string& tag : s.tags) w.value(tag);
   w.endArray();

@@ -563,6 +563,8 @@ class Datasets(unittest.TestCase):
     def test_mistakes(self):
         lot = gable.Shapes.lot(9, 5)
         with tempfile.TemporaryDirectory() as folder:
+            with self.assertRaisesRegex(TypeError, "'labels' may be meant"):
+                gable.dataset(self.rules, lot, folder, lables="tag")
             with self.assertRaisesRegex(ValueError, "labels"):
                 gable.dataset(self.rules, lot, folder, labels="colour")
             with self.assertRaisesRegex(ValueError, "count"):

@@ -126,6 +126,7 @@ class GeoJsonReader {
   // Of those seen: which the filter lets pass, and which of these are points.
   size_t chosen_ = 0, chosenPoints_ = 0;
   size_t seen_ = 0, faces_ = 0, messages_ = 0, otherGeometries_ = 0;
+  bool hasHeights_ = false;
   // Those that have been handed on, when the file is read in pieces.
   size_t handedOn_ = 0;
 };
@@ -309,6 +310,8 @@ bool GeoJsonReader::readPoints(const JsonValue& coordinates, std::vector<Vec2>& 
       complain(Severity::Error, "geojson-coordinates", "a position is too far away");
       return false;
     }
+    const double height = v.at(2).number(0);
+    hasHeights_ = hasHeights_ || height != 0;
     out.push_back(at);
   }
   return true;
@@ -578,9 +581,15 @@ Error GeoJsonReader::chosenButEmpty() const {
 
 // Degrees of which the second goes beyond the pole are read as metres, in which lots are points.
 std::string GeoJsonReader::swappedHint() const {
-  if (extent_.empty() || extent_.min.x < -90 || extent_.max.x > 90 || extent_.min.y < -180 ||
-      extent_.max.y > 180) {
-    return {};
+  if (extent_.empty()) return {};
+  if (extent_.min.x < -90 || extent_.max.x > 90 || extent_.min.y < -180 || extent_.max.y > 180) {
+    constexpr double kTiny = 0.1;
+    const Vec2 size = extent_.max - extent_.min;
+    if (size.x > kTiny || size.y > kTiny) return {};
+    return "its numbers around " + shortestText(extent_.min.x) + ", " +
+           shortestText(extent_.min.y) +
+           " are no longitude and latitude and are read as metres, in which nothing there is "
+           "larger than ten centimetres";
   }
   const double most = std::max(extent_.max.y, -extent_.min.y);
   if (most <= 90) return {};
@@ -650,6 +659,15 @@ void GeoJsonReader::conclude() {
     d.code = "geojson-no-polygon";
     d.message = std::to_string(otherGeometries_) + " geometries of '" + path_ +
                 "' are no polygons and are passed over";
+    out_.diagnostics.add(std::move(d));
+  }
+  if (hasHeights_) {
+    Diagnostics::Entry d;
+    d.severity = Severity::Note;
+    d.code = "geojson-heights";
+    d.message = "the heights that coordinates of '" + path_ +
+                "' have are left out: initial shapes lie level at 0";
+    d.hint = "give them as a property, such as elevation, and move the model by it in the rules";
     out_.diagnostics.add(std::move(d));
   }
 }

@@ -92,6 +92,27 @@ TEST(GeoJson, latitudesBeyondThePoleAreToldToBeSwapped) {
   EXPECT_NE(r.error().hint.find("151.2003, and latitudes end at 90"), std::string::npos);
 }
 
+TEST(GeoJson, whatIsNoPlaceOnTheEarthAndTinyIsTold) {
+  const std::string lot =
+      polygon("[[200,95],[200.0002,95],[200.0002,95.0002],[200,95.0002],[200,95]]");
+  const auto r = readGeoJsonShapes(collection(feature(lot)), "a.geojson");
+  ASSERT_FALSE(r.ok());
+  EXPECT_NE(r.error().hint.find("around 200, 95 are no longitude"), std::string::npos);
+}
+
+TEST(GeoJson, heightsOfCoordinatesAreToldToBeLeftOut) {
+  for (const char* height : {",520", ",0", ""}) {
+    const std::string z = height;
+    const std::string lot = polygon("[[0,0" + z + "],[0.0002,0" + z + "],[0.0002,0.0002" + z +
+                                    "],[0,0.0002" + z + "],[0,0" + z + "]]");
+    auto r = readGeoJsonShapes(collection(feature(lot)), "a.geojson");
+    ASSERT_TRUE(r.ok());
+    size_t told = 0;
+    for (const auto& d : r->diagnostics.all()) told += std::string(d.code) == "geojson-heights";
+    EXPECT_EQ(told, z == ",520" ? 1u : 0u);
+  }
+}
+
 // Hundreds of holes in one place meet each other at more points than time allows.
 TEST(GeoJson, holesOverEachOtherAreMerged) {
   std::string rings = kRing;
