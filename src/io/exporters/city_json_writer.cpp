@@ -79,6 +79,8 @@ class CityJsonWriter {
   };
   struct Surfaces : CitySurfaces {
     std::map<std::pair<const char*, uint32_t>, uint32_t> known;
+    /// Openings that have the name of their trim so far.
+    std::set<uint32_t> namedByTrim;
   };
 
   bool wants(Detail d) const { return options_.detail == Detail::All || options_.detail == d; }
@@ -211,10 +213,19 @@ uint32_t CityJsonWriter::semanticOf(const PlacedPart& part, const char* type,
   const uint32_t run = isOpening(part.kind) ? part.run : 0;
   const auto [at, isNew] =
       said.known.try_emplace({type, run}, static_cast<uint32_t>(said.semantics.size()));
-  if (!isNew) return at->second;
-  const uint32_t name = run ? scene_.leaves[part.planned.leaf].name : 0;
-  said.semantics.push_back({type, run && name < scene_.names.size() ? scene_.names[name] : ""});
-  return at->second;
+  const uint32_t number = at->second;
+  if (isNew) said.semantics.push_back({type, ""});
+  if (run == 0 || (!isNew && !said.namedByTrim.contains(number))) return number;
+  // A window has the name of its pane, not of its sill.
+  const Leaf& leaf = scene_.leaves[part.planned.leaf];
+  const bool isTrim = kinds_.of(leaf).trim;
+  if (isTrim && !isNew) return number;
+  if (leaf.name < scene_.names.size()) said.semantics[number].name = scene_.names[leaf.name];
+  if (isTrim)
+    said.namedByTrim.insert(number);
+  else
+    said.namedByTrim.erase(number);
+  return number;
 }
 
 // The boundaries of a face, unless it has no area in whole millimetres.
