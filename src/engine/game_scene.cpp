@@ -341,9 +341,10 @@ class GameSceneMaker {
     }
     std::optional<uint32_t> finer = parts.shape;
     CoarseModel model = partsOf(content, kFineness[0] * size, finishOf_);
+    const CoarseModel full = partsOf(content, 0, finishOf_);
     const bool apart = settings_.levelForm == LevelForm::Files;
     for (int i = 0; i < settings_.levels; ++i) {
-      model = coarsened(model, kFineness[static_cast<size_t>(i)] * size, CoarseHoles::Close);
+      model = coarsened(model, kFineness[static_cast<size_t>(i)] * size, i == 0 ? &full : &model);
       const std::string name = apart ? parts.name : parts.name + "_LOD" + std::to_string(i + 1);
       Coarse level = meshOf(model, true);
       const size_t count = triangleCount(level.mesh);

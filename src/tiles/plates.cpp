@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/work.h"
+#include "tiles/depth_image.h"
 #include "tiles/sheets.h"
 
 namespace gable {
@@ -33,6 +34,10 @@ constexpr double kNeeded = 0.25;
 // Large parts farther behind or before are not of the wall, such as the fronts of dormers: a share
 // of the tolerance, and metres.
 constexpr double kReveal = 0.25, kLeastReveal = 0.25;
+
+// What covers less of its rectangle has an outline, if it is as long as so many cells; these have
+// so many samples along a side. No larger ones are sampled.
+constexpr double kSolid = 0.9, kSmall = 1.5, kSamples = 4, kMostSampled = 4096;
 
 struct WallSheet : Sheet {
   /// Into the narrow or the large parts.
@@ -68,9 +73,7 @@ class PlaneGrid {
     chooseFrame();
     measure();
     if (!isWide()) return;
-    for (const WallSheet& s : sheets_) {
-      if (isInWall(s)) cover(s);
-    }
+    coverCells();
     judgeCells();
     findRectangles();
     emit(out);
@@ -148,11 +151,22 @@ class PlaneGrid {
     return std::isfinite(size.x + size.y) && std::min(size.x, size.y) >= tolerance_;
   }
 
+  // From the front to the back: sheets are in the order in which they lie.
+  void coverCells() {
+    const bool isLastFirst = dot(frame_.z, main_->normal) > 0;
+    for (size_t i = 0; i < sheets_.size(); ++i) {
+      const WallSheet& s = sheets_[isLastFirst ? sheets_.size() - 1 - i : i];
+      if (isInWall(s)) cover(s);
+    }
+  }
+
+  // What lies before a sheet hides it where it fills the cell; in others they lie side by side.
   void cover(const WallSheet& s) {
     forEachCell(s, [&](const Cell& at, double share) {
       Cover& cell = cells_[at];
+      const double seen = std::min(share, std::max(1 - cell.narrow - cell.large, 0.0));
       (s.isLarge ? cell.large : cell.narrow) += share;
-      if (!s.isLarge) cell.tint.add(partOf(s).finish, share);
+      if (!s.isLarge) cell.tint.add(partOf(s).finish, seen);
     });
   }
 
@@ -164,23 +178,54 @@ class PlaneGrid {
     const Vec3 size = box.size();
     const double whole = size.x * size.y;
     if (!(whole > 0)) return;
-    // What does not fill its rectangle, a polygon or what is turned, covers the same share of it
-    // everywhere.
-    const double filled = std::min(1.0, (s.isLarge ? shownOf(model_, p) : faceArea(p.box)) / whole);
+    const double filled =
+        std::min(1.0, (p.triangleCount > 0 ? shownOf(model_, p) : faceArea(p.box)) / whole);
     std::array<double, 2> from{}, to{};
     for (size_t i = 0; i < 2; ++i) {
       from[i] = std::max((box.min[i] - reach_.min[i]) / side_[i], 0.0);
       to[i] = std::min((box.max[i] - reach_.min[i]) / side_[i], count_[i]);
       if (!(to[i] > from[i]) || to[i] - from[i] > kMostCells) return;
     }
+    // A gable has an outline that is seen; what is small or turned covers the same share of its
+    // rectangle everywhere.
+    const double wide = to[0] - from[0], high = to[1] - from[1];
+    if (filled < kSolid && std::max(wide, high) >= kSmall && wide * high <= kMostSampled &&
+        p.triangleCount > 0) {
+      return forEachSampled(p, box, visit);
+    }
     for (double x = std::floor(from[0]); x < to[0]; ++x) {
       for (double y = std::floor(from[1]); y < to[1]; ++y) {
         work();
-        const double wide = std::min(to[0], x + 1) - std::max(from[0], x);
-        const double high = std::min(to[1], y + 1) - std::max(from[1], y);
-        visit(Cell{static_cast<int64_t>(y), static_cast<int64_t>(x)}, filled * wide * high);
+        const double share = (std::min(to[0], x + 1) - std::max(from[0], x)) *
+                             (std::min(to[1], y + 1) - std::max(from[1], y));
+        visit(Cell{static_cast<int64_t>(y), static_cast<int64_t>(x)}, filled * share);
       }
     }
+  }
+
+  // The same by samples of its triangles.
+  template <class Visit>
+  void forEachSampled(const CoarsePart& p, Box3 box, const Visit& visit) const {
+    for (size_t i = 0; i < 2; ++i) {
+      box.min[i] = std::max(box.min[i], reach_.min[i]);
+      box.max[i] = std::min(box.max[i], reach_.max[i]);
+    }
+    const double side = std::min(side_[0], side_[1]) / kSamples;
+    DepthImage image(frame_, box, side);
+    image.add(model_, p);
+    std::map<Cell, double> shares;
+    const double each = side * side / (side_[0] * side_[1]);
+    for (int64_t y = 0; y < image.height(); ++y) {
+      work(static_cast<size_t>(image.width()));
+      for (int64_t x = 0; x < image.width(); ++x) {
+        if (!image.at(x, y).part) continue;
+        const Vec2 middle =
+            image.cornerAt(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5);
+        const Cell cell{cellAt(1, middle.y), cellAt(0, middle.x)};
+        shares[cell] += each;
+      }
+    }
+    for (const auto& [cell, share] : shares) visit(cell, std::min(share, 1.0));
   }
 
   static Kind kindOf(const Cover& c) {
@@ -195,6 +240,18 @@ class PlaneGrid {
       c.kind = kindOf(c);
       if (c.kind == Kind::Needed) c.around = finishAround(at);
     }
+    for (auto& [at, c] : cells_) {
+      if (c.kind == Kind::Shown && c.large < kShown && isAtEdge(at)) c.kind = Kind::Empty;
+    }
+  }
+
+  // Beside nothing: a plate would stick out of what large parts show of the cell.
+  bool isAtEdge(const Cell& at) const {
+    const auto isOpen = [&](int64_t y, int64_t x) {
+      const auto found = cells_.find({at.first + y, at.second + x});
+      return found == cells_.end() || kindOf(found->second) == Kind::Empty;
+    };
+    return isOpen(-1, 0) || isOpen(1, 0) || isOpen(0, -1) || isOpen(0, 1);
   }
 
   struct Rectangle {
@@ -276,11 +333,13 @@ class PlaneGrid {
 
   bool isOnPlate(const Box3& box) const {
     const Vec3 middle = box.center();
-    const auto cellAt = [&](size_t i) {
-      return static_cast<int64_t>(
-          std::clamp(std::floor((middle[i] - reach_.min[i]) / side_[i]), -1.0, count_[i]));
-    };
-    return isOwned({cellAt(1), cellAt(0)});
+    return isOwned({cellAt(1, middle.y), cellAt(0, middle.x)});
+  }
+
+  // The row or the column of a place.
+  int64_t cellAt(size_t axis, double place) const {
+    return static_cast<int64_t>(
+        std::clamp(std::floor((place - reach_.min[axis]) / side_[axis]), -1.0, count_[axis]));
   }
 
   void emit(Plates& out) {
