@@ -54,6 +54,8 @@ struct Cover {
   /// Of what a plate shows here, and here and in the cells around.
   Tint tint;
   Finish around;
+  /// How far what covers it reaches, in the plane.
+  Box2 reach;
   Kind kind = Kind::Empty;
   /// Of a rectangle.
   bool isOwned = false;
@@ -162,8 +164,10 @@ class PlaneGrid {
 
   // What lies before a sheet hides it where it fills the cell; in others they lie side by side.
   void cover(const WallSheet& s) {
-    forEachCell(s, [&](const Cell& at, double share) {
+    forEachCell(s, [&](const Cell& at, double share, const Box2& reach) {
       Cover& cell = cells_[at];
+      cell.reach.include(reach.min);
+      cell.reach.include(reach.max);
       const double seen = std::min(share, std::max(1 - cell.narrow - cell.large, 0.0));
       (s.isLarge ? cell.large : cell.narrow) += share;
       if (!s.isLarge) cell.tint.add(partOf(s).finish, seen);
@@ -196,9 +200,14 @@ class PlaneGrid {
     for (double x = std::floor(from[0]); x < to[0]; ++x) {
       for (double y = std::floor(from[1]); y < to[1]; ++y) {
         work();
-        const double share = (std::min(to[0], x + 1) - std::max(from[0], x)) *
-                             (std::min(to[1], y + 1) - std::max(from[1], y));
-        visit(Cell{static_cast<int64_t>(y), static_cast<int64_t>(x)}, filled * share);
+        const Vec2 first{std::max(from[0], x), std::max(from[1], y)};
+        const Vec2 last{std::min(to[0], x + 1), std::min(to[1], y + 1)};
+        const Cell cell{static_cast<int64_t>(y), static_cast<int64_t>(x)};
+        Box2 reach;
+        for (const Vec2& end : {first, last}) {
+          reach.include({reach_.min.x + side_[0] * end.x, reach_.min.y + side_[1] * end.y});
+        }
+        visit(cell, filled * (last.x - first.x) * (last.y - first.y), reach);
       }
     }
   }
@@ -213,7 +222,7 @@ class PlaneGrid {
     const double side = std::min(side_[0], side_[1]) / kSamples;
     DepthImage image(frame_, box, side);
     image.add(model_, p);
-    std::map<Cell, double> shares;
+    std::map<Cell, std::pair<double, Box2>> shares;
     const double each = side * side / (side_[0] * side_[1]);
     for (int64_t y = 0; y < image.height(); ++y) {
       work(static_cast<size_t>(image.width()));
@@ -222,10 +231,14 @@ class PlaneGrid {
         const Vec2 middle =
             image.cornerAt(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5);
         const Cell cell{cellAt(1, middle.y), cellAt(0, middle.x)};
-        shares[cell] += each;
+        auto& [share, reach] = shares[cell];
+        share += each;
+        reach.include(middle);
       }
     }
-    for (const auto& [cell, share] : shares) visit(cell, std::min(share, 1.0));
+    for (const auto& [cell, found] : shares) {
+      visit(cell, std::min(found.first, 1.0), found.second);
+    }
   }
 
   static Kind kindOf(const Cover& c) {
@@ -363,7 +376,7 @@ class PlaneGrid {
       if (!s.isLarge || !isInWall(s)) continue;
       double whole = 0, hidden = 0;
       std::vector<std::pair<Cell, double>> cells;
-      forEachCell(s, [&](const Cell& at, double share) {
+      forEachCell(s, [&](const Cell& at, double share, const Box2&) {
         whole += share;
         if (!isOwned(at)) return;
         hidden += share;
@@ -396,6 +409,30 @@ class PlaneGrid {
     }
   }
 
+  // Where a rectangle ends along an axis, below or above: where most of what covers its last cells
+  // does, if most of them have nothing beside them.
+  double endOf(const Rectangle& r, size_t axis, int64_t to) const {
+    const int64_t last =
+        axis == 0 ? (to < 0 ? r.x : r.x + r.width - 1) : (to < 0 ? r.y : r.y + r.height - 1);
+    const int64_t from = axis == 0 ? r.y : r.x, count = axis == 0 ? r.height : r.width;
+    const double edge = reach_.min[axis] + side_[axis] * static_cast<double>(last + (to > 0));
+    std::vector<double> ends;
+    int64_t free = 0;
+    for (int64_t i = from; i < from + count; ++i) {
+      work();
+      const Cell at = axis == 0 ? Cell{i, last} : Cell{last, i};
+      const Cell beside = axis == 0 ? Cell{i, last + to} : Cell{last + to, i};
+      const Box2& reach = cells_.at(at).reach;
+      ends.push_back(to < 0 ? reach.min[axis] : reach.max[axis]);
+      const auto found = cells_.find(beside);
+      if (found == cells_.end() || found->second.kind == Kind::Empty) ++free;
+    }
+    if (2 * free <= count) return edge;
+    const auto middle = ends.begin() + static_cast<ptrdiff_t>(ends.size() / 2);
+    std::nth_element(ends.begin(), middle, ends.end());
+    return *middle;
+  }
+
   CoarsePart plateOf(const Rectangle& r) const {
     CoarsePart p;
     p.feature = partOf(*main_).feature;
@@ -405,11 +442,8 @@ class PlaneGrid {
     }
     p.finish = sum.mean(partOf(*main_).finish);
     p.frame = frame_;
-    const auto at = [&](size_t i, int64_t cell) {
-      return reach_.min[i] + side_[i] * static_cast<double>(cell);
-    };
-    p.box.include(Vec3{at(0, r.x), at(1, r.y), depth_});
-    p.box.include(Vec3{at(0, r.x + r.width), at(1, r.y + r.height), depth_});
+    p.box.include(Vec3{endOf(r, 0, -1), endOf(r, 1, -1), depth_});
+    p.box.include(Vec3{endOf(r, 0, 1), endOf(r, 1, 1), depth_});
     p.area = p.box.size().x * p.box.size().y;
     return p;
   }

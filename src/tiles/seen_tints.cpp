@@ -14,6 +14,8 @@ namespace {
 
 // What is turned farther away is seen better from another direction: a cosine.
 constexpr double kFacing = 0.5;
+// Surfaces in one place are one where such cosines differ by less.
+constexpr double kTurned = 0.2;
 
 }  // namespace
 
@@ -26,8 +28,10 @@ void SeenTints::add(const DepthImage& fine, const DepthImage& coarse,
     for (int64_t x = 0; x < fine.width(); ++x) {
       const DepthImage::Hit &was = fine.at(x, y), &is = coarse.at(x, y);
       if (!was.part || !is.part || std::abs(is.facing) < kFacing) continue;
-      // What is farther before or behind is another thing.
+      // What is farther before or behind is another thing, and so is a roof that a wall rises
+      // through.
       if (std::abs(was.depth - is.depth) > tolerance_) continue;
+      if (std::abs(std::abs(was.facing) - std::abs(is.facing)) > kTurned) continue;
       const auto number = static_cast<size_t>(is.part - parts.data());
       (is.facing > 0 ? fronts : backs)[number].add(was.part->finish, area);
     }
