@@ -491,6 +491,18 @@ TEST(Coarse, hugeAndOddNumbersEnd) {
   EXPECT_NO_FATAL_FAILURE(place.coarse(1));
 }
 
+// A wall of strips with a low rail beside it ends where it did, not where a cell does.
+TEST(Coarse, platesEndWithTheirWall) {
+  Place place;
+  for (int i = 0; i < 32; ++i) place.add({0.25 * i, 0, 0}, {0.25, 6, 0});
+  for (int i = 0; i < 4; ++i) place.add({8, 0.2 * i, 0}, {1.3, 0.2, 0});
+  const CoarseModel m = place.coarse(1);
+  for (double y = 2.1; y < 6; y += 0.3) {
+    EXPECT_TRUE(isSeenAt(m, 7.9, y, 1)) << y;
+    EXPECT_FALSE(isSeenAt(m, 8.1, y, 1)) << y;
+  }
+}
+
 // What lies behind a front is not seen, and gives it no colour.
 TEST(Coarse, platesHaveTheColourOfTheirFront) {
   Place place;
