@@ -118,7 +118,7 @@ class Closer {
       for (const Vec3& c : cornersOf(fine_.parts[i])) reach.include(frame_.toLocal(c));
     }
     const double longest = std::max(reach.size().x, reach.size().y);
-    if (!(longest <= kMostCells * tolerance_)) return;
+    if (!(longest <= kLongestClosed * tolerance_)) return;
     side_ = std::max(tolerance_ / kCellsPerTolerance, longest / kMostCells);
     DepthImage before(frame_, reach, side_), after(frame_, reach, side_);
     for (size_t i = parts_.begin; i < parts_.end; ++i) before.add(fine_, fine_.parts[i]);

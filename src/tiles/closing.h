@@ -16,12 +16,14 @@
 
 namespace gable {
 
+/// A feature is left as it is from where it looks longer than so many times the tolerance.
+constexpr double kLongestClosed = 256;
+
 /// Adds what closes `coarse`, whose parts count the features of `fine`, from above and all sides,
 /// and gives all parts their looks.
-/// Holes narrower than a quarter of the tolerance may stay, and features longer than 256 times the
-/// tolerance are left as they are. Returns how far the farthest of what a rectangle stands for is
-/// from its plane. O(triangles + 256 * 256) for each feature and direction, of which there are
-/// eight at most.
+/// Holes narrower than a quarter of the tolerance may stay. Returns how far the farthest of what a
+/// rectangle stands for is from its plane. O(triangles + 256 * 256) for each feature and direction,
+/// of which there are eight at most.
 double closeHoles(const CoarseModel& fine, double tolerance, CoarseModel& coarse);
 
 }  // namespace gable
