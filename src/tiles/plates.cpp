@@ -253,18 +253,6 @@ class PlaneGrid {
       c.kind = kindOf(c);
       if (c.kind == Kind::Needed) c.around = finishAround(at);
     }
-    for (auto& [at, c] : cells_) {
-      if (c.kind == Kind::Shown && c.large < kShown && isAtEdge(at)) c.kind = Kind::Empty;
-    }
-  }
-
-  // Beside nothing: a plate would stick out of what large parts show of the cell.
-  bool isAtEdge(const Cell& at) const {
-    const auto isOpen = [&](int64_t y, int64_t x) {
-      const auto found = cells_.find({at.first + y, at.second + x});
-      return found == cells_.end() || kindOf(found->second) == Kind::Empty;
-    };
-    return isOpen(-1, 0) || isOpen(1, 0) || isOpen(0, -1) || isOpen(0, 1);
   }
 
   struct Rectangle {
