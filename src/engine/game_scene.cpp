@@ -21,6 +21,7 @@
 #include "io/exporters/plan.h"
 #include "material/linear_light.h"
 #include "scene/flatten.h"
+#include "tiles/closing.h"
 
 namespace gable {
 namespace {
@@ -255,7 +256,7 @@ class GameSceneMaker {
     if (settings_.collision == Collision::None && settings_.levels == 0) return parts;
     for (TileLeaf& l : content.leaves) l.world = Frame::moved(-parts.foot) * l.world;
     addCollision(parts, content);
-    addLevels(parts, content, std::min(length(box.size()), kLargest));
+    addLevels(parts, content, box.size());
     return parts;
   }
 
@@ -333,17 +334,24 @@ class GameSceneMaker {
     parts.collision = addPrototype(hullMesh(box ? uprightBox(points) : hullOf(points)), {}, name);
   }
 
-  void addLevels(StandIns& parts, const TileContent& content, double size) {
+  void addLevels(StandIns& parts, const TileContent& content, const Vec3& extent) {
     if (settings_.levels == 0) return;
+    const double size = std::min(length(extent), kLargest), finest = kFineness[0] * size;
     size_t last = 0;
     for (const TileLeaf& l : content.leaves) {
       last += triangleCount(*out_.scene.meshes[out_.scene.leaves[l.leaf].mesh]);
     }
     std::optional<uint32_t> finer = parts.shape;
-    CoarseModel model = partsOf(content, kFineness[0] * size, finishOf_);
+    CoarseModel model = partsOf(content, finest, finishOf_);
+    // All triangles: what is too long to be held against them does without.
+    std::optional<CoarseModel> full;
+    if (std::max({extent.x, extent.y, extent.z}) <= kLongestClosed * finest) {
+      full = partsOf(content, 0, finishOf_);
+    }
     const bool apart = settings_.levelForm == LevelForm::Files;
     for (int i = 0; i < settings_.levels; ++i) {
-      model = coarsened(model, kFineness[static_cast<size_t>(i)] * size, CoarseHoles::Close);
+      model = coarsened(model, kFineness[static_cast<size_t>(i)] * size, full ? &*full : &model);
+      full.reset();
       const std::string name = apart ? parts.name : parts.name + "_LOD" + std::to_string(i + 1);
       Coarse level = meshOf(model, true);
       const size_t count = triangleCount(level.mesh);

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Images are orthographic, of cells much smaller than the tolerance, which are seen in their
-// middles. What closes a hole seen from one direction counts in the images from the next.
+// Images have cells much smaller than the tolerance. What closes a hole seen from one direction
+// counts in the images from the next.
 #include "tiles/closing.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <vector>
 
 #include "base/work.h"
+#include "tiles/depth_image.h"
+#include "tiles/seen_tints.h"
 #include "tiles/sheets.h"
 
 namespace gable {
@@ -38,129 +39,9 @@ constexpr double kAlike = 0.15, kFrame = 0.25;
 // A rectangle of fewer cells covers no hole worth two triangles.
 constexpr int64_t kFewestCells = 3;
 
-using Triangle = std::array<Vec3, 3>;
-
 // Parts of a feature.
 struct Range {
   size_t begin = 0, end = 0;
-};
-
-Triangle triangleOf(const CoarseModel& model, const CoarsePart& p, uint32_t number) {
-  const auto& t = model.triangles[p.firstTriangle + number];
-  const auto at = [&](size_t k) { return model.vertices[p.firstVertex + t[k]]; };
-  return {at(0), at(1), at(2)};
-}
-
-// The triangles of a part: those of its box where it has none.
-template <class Visit>
-void forEachTriangle(const CoarseModel& model, const CoarsePart& p, const Visit& visit) {
-  for (uint32_t t = 0; t < p.triangleCount; ++t) visit(triangleOf(model, p, t));
-  if (p.triangleCount > 0) return;
-  static constexpr std::array<std::array<size_t, 4>, 6> kSides = {
-      {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
-  const std::array<Vec3, 8> c = cornersOf(p);
-  const auto visitSide = [&](size_t side) {
-    const auto& s = kSides[side];
-    visit(Triangle{c[s[0]], c[s[1]], c[s[2]]});
-    visit(Triangle{c[s[0]], c[s[2]], c[s[3]]});
-  };
-  // Faces look along the z of their scope.
-  const Vec3 size = p.box.size();
-  const size_t across = thinnestOf(size);
-  if (size[across] == 0) return visitSide(2 * across + 1);
-  for (size_t side = 0; side < kSides.size(); ++side) visitSide(side);
-}
-
-// What is seen in a cell.
-struct Hit {
-  double depth = -std::numeric_limits<double>::infinity();
-  /// How much it faces the viewer: a cosine, negative for a back.
-  double facing = 0;
-  const CoarsePart* part = nullptr;
-};
-
-// What is seen of triangles along the z of a frame, from where it is large.
-class DepthImage {
- public:
-  DepthImage(const Frame& frame, const Box3& reach, double side)
-      : frame_(frame),
-        low_{reach.min.x - side, reach.min.y - side},
-        side_(side),
-        width_(cellsOf(reach.size().x)),
-        height_(cellsOf(reach.size().y)),
-        hits_(static_cast<size_t>(width_ * height_)) {}
-
-  int64_t width() const { return width_; }
-  int64_t height() const { return height_; }
-  bool contains(int64_t x, int64_t y) const {
-    return x >= 0 && y >= 0 && x < width_ && y < height_;
-  }
-  const Hit& at(int64_t x, int64_t y) const { return hits_[static_cast<size_t>(y * width_ + x)]; }
-  /// Where the lower side of a cell is, counted in the frame.
-  Vec2 cornerAt(double x, double y) const { return {low_.x + x * side_, low_.y + y * side_}; }
-
-  void add(const CoarseModel& model, const CoarsePart& part) {
-    forEachTriangle(model, part, [&](const Triangle& t) { add(t, part); });
-  }
-
- private:
-  int64_t cellsOf(double length) const { return static_cast<int64_t>(length / side_) + 3; }
-
-  void add(const Triangle& world, const CoarsePart& part) {
-    Triangle t;
-    for (size_t i = 0; i < 3; ++i) {
-      const Vec3 p = frame_.toLocal(world[i]);
-      t[i] = {(p.x - low_.x) / side_ - 0.5, (p.y - low_.y) / side_ - 0.5, p.z};
-    }
-    const Vec3 n = cross(world[1] - world[0], world[2] - world[0]);
-    const double twice =
-        (t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[1].y - t[0].y) * (t[2].x - t[0].x);
-    if (!(std::abs(twice) > 1e-9) || !(length(n) > 0)) return;
-    const double facing = dot(n, frame_.z) / length(n);
-    const auto [left, right] = std::minmax({t[0].x, t[1].x, t[2].x});
-    const auto [low, high] = std::minmax({t[0].y, t[1].y, t[2].y});
-    const auto first = [](double v) { return std::max(std::ceil(v - kEdge), 0.0); };
-    const auto last = [](double v, int64_t most) {
-      return std::min(std::floor(v + kEdge), static_cast<double>(most - 1));
-    };
-    for (double y = first(low); y <= last(high, height_); ++y) {
-      work();
-      double from = first(left), to = last(right, width_);
-      // The depth along the row, and where the row is inside all three sides.
-      double base = 0, slope = 0;
-      for (size_t k = 0; k < 3; ++k) {
-        // The share of a corner: what the side across from it leaves.
-        const Vec3 &a = t[(k + 1) % 3], &b = t[(k + 2) % 3];
-        const double per = -(b.y - a.y) / twice;
-        const double share = ((b.x - a.x) * (y - a.y)) / twice - per * a.x;
-        if (per > 0) from = std::max(from, std::ceil((-kEdge - share) / per));
-        if (per < 0) to = std::min(to, std::floor((-kEdge - share) / per));
-        if (per == 0 && share < -kEdge) to = -1;
-        base += share * t[k].z;
-        slope += per * t[k].z;
-      }
-      if (!(from <= to)) continue;
-      size_t cell =
-          static_cast<size_t>(static_cast<int64_t>(y) * width_ + static_cast<int64_t>(from));
-      for (double x = from; x <= to; ++x) see(cell++, {base + slope * x, facing, &part});
-    }
-  }
-
-  // The nearer; of what is equally near the front.
-  void see(size_t cell, const Hit& hit) {
-    Hit& seen = hits_[cell];
-    const bool isEqual = std::abs(hit.depth - seen.depth) <= kEdge;
-    if (isEqual ? hit.facing > seen.facing : hit.depth > seen.depth) seen = hit;
-  }
-
-  // Neighbours share their edge, in cells and in metres.
-  static constexpr double kEdge = 1e-6;
-
-  Frame frame_;
-  Vec2 low_;
-  double side_;
-  int64_t width_, height_;
-  std::vector<Hit> hits_;
 };
 
 // A rectangle of cells, up to before its right side and its top.
@@ -173,10 +54,16 @@ class Closer {
  public:
   Closer(const CoarseModel& fine, Range parts, double tolerance, CoarseModel& coarse,
          std::vector<CoarsePart>& shown)
-      : fine_(fine), parts_(parts), tolerance_(tolerance), coarse_(coarse), shown_(shown) {}
+      : fine_(fine),
+        parts_(parts),
+        tolerance_(tolerance),
+        coarse_(coarse),
+        shown_(shown),
+        tints_(tolerance) {}
 
   double run() {
     for (const Vec3& d : directions()) close(d);
+    tints_.apply(shown_);
     return missed_;
   }
 
@@ -192,7 +79,7 @@ class Closer {
       sums[key] += n;
     };
     for (size_t i = parts_.begin; i < parts_.end; ++i) {
-      forEachTriangle(fine_, fine_.parts[i], [&](const Triangle& t) {
+      forEachTriangle(fine_, fine_.parts[i], [&](const CoarseTriangle& t) {
         work();
         count(cross(t[1] - t[0], t[2] - t[0]));
       });
@@ -231,16 +118,17 @@ class Closer {
       for (const Vec3& c : cornersOf(fine_.parts[i])) reach.include(frame_.toLocal(c));
     }
     const double longest = std::max(reach.size().x, reach.size().y);
-    if (!(longest <= kMostCells * tolerance_)) return;
+    if (!(longest <= kLongestClosed * tolerance_)) return;
     side_ = std::max(tolerance_ / kCellsPerTolerance, longest / kMostCells);
     DepthImage before(frame_, reach, side_), after(frame_, reach, side_);
     for (size_t i = parts_.begin; i < parts_.end; ++i) before.add(fine_, fine_.parts[i]);
     for (const CoarsePart& p : shown_) after.add(coarse_, p);
+    tints_.add(before, after, shown_, side_ * side_);
     findHoles(before, after);
     cover(before, after);
   }
 
-  bool isShown(const Hit& before, const Hit& after) const {
+  bool isShown(const DepthImage::Hit& before, const DepthImage::Hit& after) const {
     return before.depth - after.depth <= tolerance_;
   }
 
@@ -250,7 +138,7 @@ class Closer {
     for (int64_t y = 0; y < before.height(); ++y) {
       work(static_cast<size_t>(width_));
       for (int64_t x = 0; x < width_; ++x) {
-        const Hit &was = before.at(x, y), &is = after.at(x, y);
+        const DepthImage::Hit &was = before.at(x, y), &is = after.at(x, y);
         if (!was.part || was.facing < kFacing || isShown(was, is)) continue;
         open_[indexOf(x, y)] = is.part ? is.facing < 0 : isBetween(before, after, x, y);
       }
@@ -281,11 +169,11 @@ class Closer {
   }
 
   void coverFrom(const DepthImage& before, const DepthImage& after, int64_t x, int64_t y) {
-    const Hit& first = before.at(x, y);
+    const DepthImage::Hit& first = before.at(x, y);
     const auto isOf = [&](int64_t u, int64_t v) {
       work();
       if (!before.contains(u, v) || !open_[indexOf(u, v)]) return false;
-      const Hit& h = before.at(u, v);
+      const DepthImage::Hit& h = before.at(u, v);
       return std::abs(h.depth - first.depth) <= kFlat * tolerance_ &&
              (std::min(widthOf(h.part->box), widthOf(first.part->box)) < kFrame * tolerance_ ||
               distanceOf(h.part->finish, first.part->finish) <= kAlike);
@@ -309,7 +197,7 @@ class Closer {
     const CoarsePart* last = nullptr;
     for (int64_t v = r.y; v < r.top; ++v) {
       for (int64_t u = r.x; u < r.right; ++u) {
-        const Hit& h = before.at(u, v);
+        const DepthImage::Hit& h = before.at(u, v);
         open_[indexOf(u, v)] = false;
         tint.add(h.part->finish, 1);
         depths.include(Vec3{0, 0, h.depth});
@@ -358,6 +246,7 @@ class Closer {
   CoarseModel& coarse_;
   /// The coarse parts of the feature, with what closes it.
   std::vector<CoarsePart>& shown_;
+  SeenTints tints_;
   double missed_ = 0;
   Vec3 level_{1, 0, 0};
   // Of the direction that is looked from.

@@ -45,8 +45,6 @@ constexpr double kAlong = 0.7;
 constexpr double kFlush = 0.97;
 // A box stands for things whose faces have together at least such a share of its own.
 constexpr double kDense = 0.5;
-// Colours that are the same have so many steps.
-constexpr double kTints = 1024;
 // A part with so many triangles cannot be simpler.
 constexpr uint32_t kSimple = 2;
 // Anchors of a cell that are looked at.
@@ -118,8 +116,8 @@ double distance2(const Vec3& p, const std::array<Vec3, 3>& t) {
 class Coarsener {
  public:
   /// `missed`: how far parts of `from` are from what they stand for already.
-  Coarsener(const CoarseModel& from, double tolerance, double missed, CoarseHoles holes)
-      : from_(from), tolerance_(tolerance), side_(tolerance / 2), missed_(missed), holes_(holes) {}
+  Coarsener(const CoarseModel& from, double tolerance, double missed, const CoarseModel* seen)
+      : from_(from), tolerance_(tolerance), side_(tolerance / 2), missed_(missed), seen_(seen) {}
 
   CoarseModel run() {
     out_.features = from_.features;
@@ -130,9 +128,7 @@ class Coarsener {
     }
     join();
     dropFlat();
-    if (holes_ == CoarseHoles::Close) {
-      missed_ = std::max(missed_, closeHoles(from_, tolerance_, out_));
-    }
+    if (seen_) missed_ = std::max(missed_, closeHoles(*seen_, tolerance_, out_));
     dropFeatures();
     out_.error = from_.error + std::max(tolerance_ * kThin, missed_) + shift_;
     return std::move(out_);
@@ -293,15 +289,10 @@ class Coarsener {
   // By the colour that parts had: walls of one stone stay of one colour.
   using Tints = std::map<std::array<int64_t, 3>, Tint>;
 
-  static std::array<int64_t, 3> keyOf(const Finish& finish) {
-    // Means of equal colours differ in their last digits.
-    return cellOf(finish.color + Vec3{0.5, 0.5, 0.5} * (1 / kTints), 1 / kTints);
-  }
-
   static Tints tintsOf(const std::vector<Bearer>& bearers) {
     Tints out;
     for (const Bearer& b : bearers) {
-      Tint& tint = out[keyOf(b.part->finish)];
+      Tint& tint = out[tintKey(b.part->finish)];
       tint.add(b.part->finish, b.part->area);
       tint.add(b.tint);
     }
@@ -309,7 +300,7 @@ class Coarsener {
   }
 
   static Finish tintOf(const Tints& tints, const Finish& finish) {
-    const auto found = tints.find(keyOf(finish));
+    const auto found = tints.find(tintKey(finish));
     return found == tints.end() ? finish : found->second.mean(finish);
   }
 
@@ -571,7 +562,7 @@ class Coarsener {
   double tolerance_, side_;
   /// The farthest of what is not shown from what is, and of a corner from where it was.
   double missed_;
-  CoarseHoles holes_;
+  const CoarseModel* seen_;
   double shift_ = 0;
   CoarseModel out_;
   /// Of a vertex: it is joined with others, stays where it is, or stays and draws others to it.
@@ -680,9 +671,9 @@ CoarseModel partsOf(const TileContent& content, double tolerance, const FinishOf
   return PartMaker(content, tolerance, finishOf).run();
 }
 
-CoarseModel coarsened(const CoarseModel& model, double tolerance, CoarseHoles holes) {
+CoarseModel coarsened(const CoarseModel& model, double tolerance, const CoarseModel* seen) {
   const Panelled panelled = withPanels(model, tolerance);
-  return Coarsener(panelled.model, tolerance, panelled.offset, holes).run();
+  return Coarsener(panelled.model, tolerance, panelled.offset, seen).run();
 }
 
 }  // namespace gable

@@ -16,8 +16,8 @@
 //      change to a finer tile before an error covers sixteen pixels, so thinner ones cover less
 //      than two.
 //   4. Corners in one cell of half the tolerance become one, and triangles without area go.
-//   5. Holes through which one would look into a house are covered, where that is asked for
-//      (tiles/closing.h).
+//   5. Where that is asked for, holes through which one would look into a house are covered, and
+//      parts look like what one sees in their place (tiles/closing.h).
 // `error` is what that came to, in metres: how far what was moved or left out is from what is
 // shown, or how long it is where nothing near it is shown. It bounds how far points of the full
 // model are from the coarse one, other than those of things narrower than an eighth of it.
@@ -67,12 +67,10 @@ using FinishOf = std::function<Finish(const Material&)>;
 /// The parts of a tile; those narrower than `tolerance` without their triangles.
 CoarseModel partsOf(const TileContent& content, double tolerance, const FinishOf& finishOf);
 
-/// What becomes of holes that parts leave which are too narrow to stay: to close them takes about
-/// as long as all else.
-enum class CoarseHoles : uint8_t { Stay, Close };
-
-/// O(n log n) in the parts, times how many large ones a feature has in the worst case.
+/// O(n log n) in the parts, times how many large ones a feature has in the worst case. Where `seen`
+/// is given, a model of the same features, holes are closed and looks are those that one sees of it
+/// (tiles/closing.h): that takes about as long as all else.
 CoarseModel coarsened(const CoarseModel& model, double tolerance,
-                      CoarseHoles holes = CoarseHoles::Stay);
+                      const CoarseModel* seen = nullptr);
 
 }  // namespace gable

@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 
+#include "geom/mesh/mesh.h"
+
 namespace gable {
 namespace {
 
@@ -22,8 +24,21 @@ class Place {
     content_.features.resize(1);
   }
 
-  void add(const Vec3& low, const Vec3& size, uint32_t color = 0) {
+  void add(const Vec3& low, const Vec3& size, uint32_t color = 0) { add(0, low, size, color); }
+
+  // A gable across z: as wide and as high as given, its ridge in the middle.
+  void addGable(const Vec3& low, double wide, double high) {
+    MeshBuilder builder;
+    for (const Vec3& p : {Vec3{}, Vec3{wide, 0, 0}, Vec3{wide / 2, high, 0}})
+      builder.addPosition(p);
+    builder.addPolygon(std::array<uint32_t, 3>{0, 1, 2});
+    scene_->meshes.push_back(makeRef<Mesh>(builder.take()));
+    add(static_cast<uint32_t>(scene_->meshes.size()) - 1, low, {1, 1, 1}, 0);
+  }
+
+  void add(uint32_t mesh, const Vec3& low, const Vec3& size, uint32_t color) {
     Leaf leaf;
+    leaf.mesh = mesh;
     leaf.scale = size;
     leaf.materials = color;
     TileLeaf at;
@@ -40,8 +55,11 @@ class Place {
     });
   }
 
-  CoarseModel coarse(double tolerance, CoarseHoles holes = CoarseHoles::Stay) {
-    return coarsened(parts(tolerance), tolerance, holes);
+  CoarseModel coarse(double tolerance) { return coarsened(parts(tolerance), tolerance); }
+  // Held against what is seen of the full model.
+  CoarseModel closed(double tolerance) {
+    const CoarseModel full = parts();
+    return coarsened(parts(tolerance), tolerance, &full);
   }
 
  private:
@@ -343,9 +361,9 @@ TEST(Coarse, windowsInRevealsStayClosed) {
       place.add({x + 4 - wide, 3.5, 0}, {wide, 2.5, 0});
     }
     for (const double tolerance : {0.4, 0.7, 1.0}) {
-      CoarseModel m = place.coarse(tolerance, CoarseHoles::Close);
+      CoarseModel m = place.closed(tolerance);
       for (const double coarser : {0.0, 2.5}) {
-        if (coarser > 0) m = coarsened(m, coarser * tolerance, CoarseHoles::Close);
+        if (coarser > 0) m = coarsened(m, coarser * tolerance, &m);
         for (double x = 3.11; x < 13; x += 0.17) {
           for (double y = 2.2; y < 3.4; y += 0.13) {
             ASSERT_TRUE(isSeenAt(m, x, y, tolerance * (1 + coarser)))
@@ -471,6 +489,86 @@ TEST(Coarse, hugeAndOddNumbersEnd) {
   place.add({0, 0, 0}, {0, 0, 0});
   place.add({0, 0, 0}, {-5, 5, 5});
   EXPECT_NO_FATAL_FAILURE(place.coarse(1));
+}
+
+// A wall of strips with a low rail beside it ends where it did, not where a cell does.
+TEST(Coarse, platesEndWithTheirWall) {
+  Place place;
+  for (int i = 0; i < 32; ++i) place.add({0.25 * i, 0, 0}, {0.25, 6, 0});
+  for (int i = 0; i < 4; ++i) place.add({8, 0.2 * i, 0}, {1.3, 0.2, 0});
+  const CoarseModel m = place.coarse(1);
+  for (double y = 2.1; y < 6; y += 0.3) {
+    EXPECT_TRUE(isSeenAt(m, 7.9, y, 1)) << y;
+    EXPECT_FALSE(isSeenAt(m, 8.1, y, 1)) << y;
+  }
+}
+
+// What lies behind a front is not seen, and gives it no colour.
+TEST(Coarse, platesHaveTheColourOfTheirFront) {
+  Place place;
+  place.add({0, 0, -9}, {24, 12, 7});
+  for (int i = 0; i < 96; ++i) {
+    place.add({0.25 * i, 0, 0}, {0.25, 12, 0}, 0);
+    for (const double behind : {0.2, 0.4}) place.add({0.25 * i, 0, -behind}, {0.25, 12, 0}, 1);
+  }
+  const CoarseModel m = place.closed(0.75);
+  for (double x = 0.3; x < 24; x += 0.7) {
+    for (const CoarsePart& p : m.parts) {
+      Box3 box;
+      for (const Vec3& c : {p.box.min, p.box.max}) box.include(p.frame.point(c));
+      if (box.max.x < x || box.min.x > x) continue;
+      EXPECT_GT(p.finish.color.x, 0.9) << x;
+    }
+  }
+}
+
+TEST(Coarse, wallsTakeNoColourOfWhatTheyHide) {
+  Place place;
+  place.add({0, 0, 0}, {10, 6, 8});
+  for (int i = 0; i < 8; ++i) place.add({i * 1.2, 3, 0.3}, {0.9, 0.9, 0.1}, 1);
+  const CoarseModel m = place.closed(1);
+  ASSERT_EQ(m.parts.size(), 1u);
+  EXPECT_GT(m.parts[0].finish.color.x, 0.999);
+}
+
+// Windows lie on the front; the side of the same stone keeps its colour.
+TEST(Coarse, wallsTakeTheColourThatOneSees) {
+  Place place;
+  place.add({0, 0, 0}, {10, 6, 0});
+  place.add({0, 0, -8}, {0, 6, 8});
+  place.add({0.2, 0, -8}, {9.8, 6, 7.8});
+  for (int i = 0; i < 20; ++i) {
+    place.add({0.1 + 0.49 * i, 2, 0.05}, {0.4, 0.9, 0}, 1);
+    // Frames behind the panes.
+    place.add({0.1 + 0.49 * i, 2, 0.02}, {0.4, 0.9, 0}, 0);
+  }
+  const CoarseModel m = place.closed(1);
+  ASSERT_EQ(m.parts.size(), 3u);
+  constexpr double kDark = 20 * 0.4 * 0.9 / 60;
+  for (const CoarsePart& p : m.parts) {
+    EXPECT_NEAR(p.finish.color.x, p.box.size().z == 0 ? 1 - kDark : 1, 0.02);
+  }
+}
+
+// Strips below a gable are a wall; it ends where the gable does.
+TEST(Coarse, platesKeepBelowTheSlopesOfGables) {
+  Place place;
+  for (int i = 0; i < 32; ++i) place.add({0.25 * i, 0, 0}, {0.25, 3, 0});
+  place.addGable({0, 3, 0}, 8, 6);
+  // A chimney beside it, as high as the ridge.
+  place.add({-0.2, 0, 0}, {0.2, 9, 0}, 1);
+  const CoarseModel m = place.coarse(0.8);
+  for (double x = 0.2; x < 8; x += 0.2) {
+    for (double y = 0.3; y < 10; y += 0.3) {
+      const double top = 3 + 6 * (1 - std::abs(x - 4) / 4);
+      if (y > top + 1.2) {
+        EXPECT_FALSE(isSeenAt(m, x, y, 1)) << x << " " << y;
+      }
+      if (y < top - 0.8) {
+        EXPECT_TRUE(isSeenAt(m, x, y, 1)) << x << " " << y;
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -5,7 +5,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "math/vec.h"
 
@@ -36,6 +38,17 @@ struct Tint {
     return weight > 0 ? Finish{sum * (1 / weight), roughness / weight} : otherwise;
   }
 };
+
+/// Equal for equal colours: means of them differ in their last digits.
+inline std::array<int64_t, 3> tintKey(const Finish& finish) {
+  constexpr double kSteps = 1024, kMost = 1e12;
+  std::array<int64_t, 3> key{};
+  for (size_t i = 0; i < 3; ++i) {
+    key[i] =
+        static_cast<int64_t>(std::clamp(std::floor(finish.color[i] * kSteps + 0.5), -kMost, kMost));
+  }
+  return key;
+}
 
 /// How far two colours are from each other for the eye, about in steps of sRGB: the largest of
 /// three. Roots are near enough to its curve.

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/work.h"
+#include "tiles/depth_image.h"
 #include "tiles/sheets.h"
 
 namespace gable {
@@ -34,6 +35,10 @@ constexpr double kNeeded = 0.25;
 // of the tolerance, and metres.
 constexpr double kReveal = 0.25, kLeastReveal = 0.25;
 
+// What covers less of its rectangle has an outline, if it is as long as so many cells; these have
+// so many samples along a side. No larger ones are sampled.
+constexpr double kSolid = 0.9, kSmall = 1.5, kSamples = 4, kMostSampled = 4096;
+
 struct WallSheet : Sheet {
   /// Into the narrow or the large parts.
   size_t number = 0;
@@ -49,6 +54,8 @@ struct Cover {
   /// Of what a plate shows here, and here and in the cells around.
   Tint tint;
   Finish around;
+  /// How far what covers it reaches, in the plane.
+  Box2 reach;
   Kind kind = Kind::Empty;
   /// Of a rectangle.
   bool isOwned = false;
@@ -68,9 +75,7 @@ class PlaneGrid {
     chooseFrame();
     measure();
     if (!isWide()) return;
-    for (const WallSheet& s : sheets_) {
-      if (isInWall(s)) cover(s);
-    }
+    coverCells();
     judgeCells();
     findRectangles();
     emit(out);
@@ -148,11 +153,24 @@ class PlaneGrid {
     return std::isfinite(size.x + size.y) && std::min(size.x, size.y) >= tolerance_;
   }
 
+  // From the front to the back: sheets are in the order in which they lie.
+  void coverCells() {
+    const bool isLastFirst = dot(frame_.z, main_->normal) > 0;
+    for (size_t i = 0; i < sheets_.size(); ++i) {
+      const WallSheet& s = sheets_[isLastFirst ? sheets_.size() - 1 - i : i];
+      if (isInWall(s)) cover(s);
+    }
+  }
+
+  // What lies before a sheet hides it where it fills the cell; in others they lie side by side.
   void cover(const WallSheet& s) {
-    forEachCell(s, [&](const Cell& at, double share) {
+    forEachCell(s, [&](const Cell& at, double share, const Box2& reach) {
       Cover& cell = cells_[at];
+      cell.reach.include(reach.min);
+      cell.reach.include(reach.max);
+      const double seen = std::min(share, std::max(1 - cell.narrow - cell.large, 0.0));
       (s.isLarge ? cell.large : cell.narrow) += share;
-      if (!s.isLarge) cell.tint.add(partOf(s).finish, share);
+      if (!s.isLarge) cell.tint.add(partOf(s).finish, seen);
     });
   }
 
@@ -164,22 +182,62 @@ class PlaneGrid {
     const Vec3 size = box.size();
     const double whole = size.x * size.y;
     if (!(whole > 0)) return;
-    // What does not fill its rectangle, a polygon or what is turned, covers the same share of it
-    // everywhere.
-    const double filled = std::min(1.0, (s.isLarge ? shownOf(model_, p) : faceArea(p.box)) / whole);
+    const double filled =
+        std::min(1.0, (p.triangleCount > 0 ? shownOf(model_, p) : faceArea(p.box)) / whole);
     std::array<double, 2> from{}, to{};
     for (size_t i = 0; i < 2; ++i) {
       from[i] = std::max((box.min[i] - reach_.min[i]) / side_[i], 0.0);
       to[i] = std::min((box.max[i] - reach_.min[i]) / side_[i], count_[i]);
       if (!(to[i] > from[i]) || to[i] - from[i] > kMostCells) return;
     }
+    // A gable has an outline that is seen; what is small or turned covers the same share of its
+    // rectangle everywhere.
+    const double wide = to[0] - from[0], high = to[1] - from[1];
+    if (filled < kSolid && std::max(wide, high) >= kSmall && wide * high <= kMostSampled &&
+        p.triangleCount > 0) {
+      return forEachSampled(p, box, visit);
+    }
     for (double x = std::floor(from[0]); x < to[0]; ++x) {
       for (double y = std::floor(from[1]); y < to[1]; ++y) {
         work();
-        const double wide = std::min(to[0], x + 1) - std::max(from[0], x);
-        const double high = std::min(to[1], y + 1) - std::max(from[1], y);
-        visit(Cell{static_cast<int64_t>(y), static_cast<int64_t>(x)}, filled * wide * high);
+        const Vec2 first{std::max(from[0], x), std::max(from[1], y)};
+        const Vec2 last{std::min(to[0], x + 1), std::min(to[1], y + 1)};
+        const Cell cell{static_cast<int64_t>(y), static_cast<int64_t>(x)};
+        Box2 reach;
+        for (const Vec2& end : {first, last}) {
+          reach.include({reach_.min.x + side_[0] * end.x, reach_.min.y + side_[1] * end.y});
+        }
+        visit(cell, filled * (last.x - first.x) * (last.y - first.y), reach);
       }
+    }
+  }
+
+  // The same by samples of its triangles.
+  template <class Visit>
+  void forEachSampled(const CoarsePart& p, Box3 box, const Visit& visit) const {
+    for (size_t i = 0; i < 2; ++i) {
+      box.min[i] = std::max(box.min[i], reach_.min[i]);
+      box.max[i] = std::min(box.max[i], reach_.max[i]);
+    }
+    const double side = std::min(side_[0], side_[1]) / kSamples;
+    DepthImage image(frame_, box, side);
+    image.add(model_, p);
+    std::map<Cell, std::pair<double, Box2>> shares;
+    const double each = side * side / (side_[0] * side_[1]);
+    for (int64_t y = 0; y < image.height(); ++y) {
+      work(static_cast<size_t>(image.width()));
+      for (int64_t x = 0; x < image.width(); ++x) {
+        if (!image.at(x, y).part) continue;
+        const Vec2 middle =
+            image.cornerAt(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5);
+        const Cell cell{cellAt(1, middle.y), cellAt(0, middle.x)};
+        auto& [share, reach] = shares[cell];
+        share += each;
+        reach.include(middle);
+      }
+    }
+    for (const auto& [cell, found] : shares) {
+      visit(cell, std::min(found.first, 1.0), found.second);
     }
   }
 
@@ -276,11 +334,13 @@ class PlaneGrid {
 
   bool isOnPlate(const Box3& box) const {
     const Vec3 middle = box.center();
-    const auto cellAt = [&](size_t i) {
-      return static_cast<int64_t>(
-          std::clamp(std::floor((middle[i] - reach_.min[i]) / side_[i]), -1.0, count_[i]));
-    };
-    return isOwned({cellAt(1), cellAt(0)});
+    return isOwned({cellAt(1, middle.y), cellAt(0, middle.x)});
+  }
+
+  // The row or the column of a place.
+  int64_t cellAt(size_t axis, double place) const {
+    return static_cast<int64_t>(
+        std::clamp(std::floor((place - reach_.min[axis]) / side_[axis]), -1.0, count_[axis]));
   }
 
   void emit(Plates& out) {
@@ -304,7 +364,7 @@ class PlaneGrid {
       if (!s.isLarge || !isInWall(s)) continue;
       double whole = 0, hidden = 0;
       std::vector<std::pair<Cell, double>> cells;
-      forEachCell(s, [&](const Cell& at, double share) {
+      forEachCell(s, [&](const Cell& at, double share, const Box2&) {
         whole += share;
         if (!isOwned(at)) return;
         hidden += share;
@@ -337,6 +397,30 @@ class PlaneGrid {
     }
   }
 
+  // Where a rectangle ends along an axis, below or above: where most of what covers its last cells
+  // does, if most of them have nothing beside them.
+  double endOf(const Rectangle& r, size_t axis, int64_t to) const {
+    const int64_t last =
+        axis == 0 ? (to < 0 ? r.x : r.x + r.width - 1) : (to < 0 ? r.y : r.y + r.height - 1);
+    const int64_t from = axis == 0 ? r.y : r.x, count = axis == 0 ? r.height : r.width;
+    const double edge = reach_.min[axis] + side_[axis] * static_cast<double>(last + (to > 0));
+    std::vector<double> ends;
+    int64_t free = 0;
+    for (int64_t i = from; i < from + count; ++i) {
+      work();
+      const Cell at = axis == 0 ? Cell{i, last} : Cell{last, i};
+      const Cell beside = axis == 0 ? Cell{i, last + to} : Cell{last + to, i};
+      const Box2& reach = cells_.at(at).reach;
+      ends.push_back(to < 0 ? reach.min[axis] : reach.max[axis]);
+      const auto found = cells_.find(beside);
+      if (found == cells_.end() || found->second.kind == Kind::Empty) ++free;
+    }
+    if (2 * free <= count) return edge;
+    const auto middle = ends.begin() + static_cast<ptrdiff_t>(ends.size() / 2);
+    std::nth_element(ends.begin(), middle, ends.end());
+    return *middle;
+  }
+
   CoarsePart plateOf(const Rectangle& r) const {
     CoarsePart p;
     p.feature = partOf(*main_).feature;
@@ -346,11 +430,8 @@ class PlaneGrid {
     }
     p.finish = sum.mean(partOf(*main_).finish);
     p.frame = frame_;
-    const auto at = [&](size_t i, int64_t cell) {
-      return reach_.min[i] + side_[i] * static_cast<double>(cell);
-    };
-    p.box.include(Vec3{at(0, r.x), at(1, r.y), depth_});
-    p.box.include(Vec3{at(0, r.x + r.width), at(1, r.y + r.height), depth_});
+    p.box.include(Vec3{endOf(r, 0, -1), endOf(r, 1, -1), depth_});
+    p.box.include(Vec3{endOf(r, 0, 1), endOf(r, 1, 1), depth_});
     p.area = p.box.size().x * p.box.size().y;
     return p;
   }

@@ -43,6 +43,15 @@ Frame --> extrude(0.06) Frame.
 Pane --> color("#54707c") Pane.
 Wall --> color("#a9674d") Wall.
 """
+# A house of brick whose windows have cream frames and dark panes: of each frame, reveal and sill most is hidden.
+ROW = """Lot --> extrude(9) comp(f) { front : Front | side : Wall | top : roofGable(45) Tiles. }
+Front --> split(y) { { ~3 : split(x) { { ~0.5 : Wall | ~1.4 : Bay | ~0.5 : Wall }* } }* }
+Bay --> split(y) { 0.6 : Wall | ~1 : Window | 0.3 : Wall }
+Window --> t(0, 0, -0.09) split(x) { 0.1 : Frame | ~1 : split(y) { 0.1 : Frame | ~1 : Sash | 0.1 : Frame } | 0.1 : Frame }
+Sash --> [ color("#2b3338") Pane. ] split(x) { { ~0.4 : NIL | 0.03 : Frame }* | ~0.4 : NIL }
+Frame --> [ t(0, 0, -0.2) s('1, '1, 0.15) color("#efe9d8") primitiveCube() Frame. ] color("#efe9d8") extrude(0.07) Frame.
+Wall --> color("#7a4636") Wall.
+"""
 LOTS = (("House-col 1", "House", 0, 0, 20, 10), ("House-col 1", "House", 40, 0, 20, 10), ("Yard", "Court", 80, 0, 30, 30),
         ("Lawn", "Lawn", 120, 0, 10, 10))
 
@@ -87,6 +96,14 @@ class Glb:
             out += [tuple(corner[i:i + 3]) for i in range(0, len(corner), 3)]
         return out
 
+    def colours(self, node):
+        """Linear light, by triangle."""
+        out = []
+        for p in self.json["meshes"][node["mesh"]]["primitives"]:
+            light = self.json["materials"][p["material"]]["pbrMetallicRoughness"].get("baseColorFactor", [1, 1, 1, 1])[:3]
+            out += [light] * (self.json["accessors"][p["indices"]]["count"] // 3)
+        return out
+
     def box(self, node):
         points = [p for t in self.triangles(node) for p in t]
         return [min(p[k] for p in points) for k in range(3)], [max(p[k] for p in points) for k in range(3)]
@@ -98,10 +115,10 @@ class Glb:
 
 
 def seen(triangles, axes, low, step, width, height):
-    """What is seen along the last of the axes, by cell: the depth, and 1 for a front, -1 for a back, 0 for nothing."""
-    depth, side = [-1e9] * (width * height), [0] * (width * height)
+    """What is seen along the last of the axes, by cell: the depth, 1 for a front, -1 for a back, 0 for nothing, and which triangle."""
+    depth, side, which = [-1e9] * (width * height), [0] * (width * height), [-1] * (width * height)
     edge = 1e-4
-    for triangle in triangles:
+    for number, triangle in enumerate(triangles):
         at = [[sum(p[k] * a[k] for k in range(3)) for a in axes] for p in triangle]
         (ax, ay, az), (bx, by, bz), (cx, cy, cz) = [((x - low[0]) / step - 0.5, (y - low[1]) / step - 0.5, z) for x, y, z in at]
         whole = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
@@ -113,8 +130,8 @@ def seen(triangles, axes, low, step, width, height):
                 b = ((ax - cx) * (y - cy) - (ay - cy) * (x - cx)) / whole
                 z, i = a * az + b * bz + (1 - a - b) * cz, y * width + x
                 if min(a, b, 1 - a - b) >= -edge and z > depth[i] + (edge if whole < 0 else -edge):
-                    depth[i], side[i] = z, 1 if whole > 0 else -1
-    return depth, side
+                    depth[i], side[i], which[i] = z, 1 if whole > 0 else -1, number
+    return depth, side, which
 
 
 def views(full):
@@ -135,8 +152,8 @@ def holes(full, level, tolerance):
     the tolerance."""
     found = fronts = 0
     for axes, low, step, width, height in views(full):
-        depth, side = seen(full, axes, low, step, width, height)
-        coarse, coarse_side = seen(level, axes, low, step, width, height)
+        depth, side, _ = seen(full, axes, low, step, width, height)
+        coarse, coarse_side, _ = seen(level, axes, low, step, width, height)
         reach, slit = math.ceil(tolerance / step), max(1, round(tolerance / 8 / step))
 
         def around(i, by):
@@ -157,6 +174,20 @@ def holes(full, level, tolerance):
                 open_.add(i)
         found += sum(all(n in open_ for n in around(i, slit)) for i in open_)
     return found / fronts
+
+
+def srgb(light):
+    return [255 * (12.92 * c if c <= 0.0031308 else 1.055 * c ** (1 / 2.4) - 0.055) for c in light]
+
+
+def mean_colours(full, *models):
+    """By view, the mean colour of what is seen of each model: triangles, and the light of each."""
+    for view in views(full):
+        means = []
+        for triangles, lights in models:
+            shown = [lights[i] for i in seen(triangles, *view)[2] if i >= 0]
+            means.append(srgb([sum(c) / len(shown) for c in zip(*shown)]))
+        yield means
 
 
 class Games(Case):
@@ -251,6 +282,20 @@ class Games(Case):
             size = math.dist(*([f(p[k] for t in full for p in t) for k in range(3)] for f in (min, max)))
             for level, fineness in zip(levels, (50, 20)):
                 self.assertLess(holes(full, level, size / fineness), 1 / 5000, (rules.name, fineness))
+
+    def testLevelsHaveTheColoursThatOneSees(self):
+        self.put("shop.cga", SHOP)
+        self.put("row.cga", ROW)
+        for rules, lot in (("shop.cga", "12x10"), ("row.cga", "8x12")):
+            self.run_gable("generate", rules, "--lot", lot, "-o", "h.glb", "--names", "unique", "--lods", "3", "--lod-form", "files",
+                           "--instancing", "shapes")
+            models = []
+            for end in ("", "_LOD1", "_LOD2", "_LOD3"):
+                glb = Glb(self.folder / f"h{end}.glb")
+                models.append(([t for n in glb.top for t in glb.triangles(n)], [c for n in glb.top for c in glb.colours(n)]))
+            for number, (full, *levels) in enumerate(mean_colours(models[0][0], *models)):
+                for fineness, level in zip((50, 20, 8), levels):
+                    self.assertLess(max(abs(a - b) for a, b in zip(full, level)), 10, (rules, number, fineness, full, level))
 
     def testMsftLodNamesNodesOutsideTheScene(self):
         glb, _ = self.made("--lods", "2", "--lod-form", "msft", "--instancing", "shapes")
