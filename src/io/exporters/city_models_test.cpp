@@ -750,5 +750,26 @@ TEST(CityJsonShapes, comeBackWithTagsAndAttributes) {
   EXPECT_EQ(none.error().code, "shapes-empty");
 }
 
+// What hangs on a building has its attributes, so it is chosen by them as well.
+TEST(CityJsonShapes, partsAreChosenByTheAttributesOfTheirBuilding) {
+  City c;
+  c.box("Wall", {0, 0, 0}, {9, 6, 9});
+  c.box("Stairs", {2, 0, 9}, {2, 1, 1});
+  c.root("a", c.prototype("Lot"), Frame{});
+  WriteOptions options;
+  options.attributesOf = [](size_t) {
+    return std::vector<AttributeValue>{{"owner", {{PlainValue::Kind::Text, 0, "Ada"}}, 0, 0}};
+  };
+  const std::string path = inWritten("owned.city.json");
+  ASSERT_TRUE(writeModel(c.scene, path, options).ok());
+  const std::string text = readFile(path).value();
+  for (const auto& [value, count] : {std::pair("Ada", 2u), std::pair("", 2u)}) {
+    auto shapes = readShapes(text, {path, {}, false}, {{}, "owner", value});
+    ASSERT_TRUE(shapes.ok()) << shapes.error().message;
+    EXPECT_EQ(shapes->shapes.size(), count);
+  }
+  EXPECT_FALSE(readShapes(text, {path, {}, false}, {{}, "owner", "Bob"}).ok());
+}
+
 }  // namespace
 }  // namespace gable

@@ -96,9 +96,30 @@ class Reader {
 
   bool passes(const JsonValue& object) const {
     if (filter_.key.empty()) return true;
-    const JsonValue& v = filter_.key == "type" ? object["type"] : object["attributes"][filter_.key];
+    const JsonValue& v = filter_.key == "type" ? object["type"] : attributeOf(object);
     if (!filter_.value.empty()) return cityJsonText(v) == filter_.value;
     return !v.isNull() && v.text() != "no";
+  }
+
+  // That of the filter: the object's own, else that of the building that it is a part of.
+  const JsonValue& attributeOf(const JsonValue& object) const {
+    const JsonValue* v = &object["attributes"][filter_.key];
+    forEachOwner(object, [&](const JsonValue& of) {
+      if (v->isNull()) v = &of["attributes"][filter_.key];
+    });
+    return *v;
+  }
+
+  // Calls `visit` for an object and what it is a part of, from the inside out.
+  template <class Visit>
+  void forEachOwner(const JsonValue& object, const Visit& visit) const {
+    constexpr int kDeepest = 8;
+    const JsonValue* of = &object;
+    for (int depth = 0; of && depth < kDeepest; ++depth) {
+      visit(*of);
+      const auto parent = objects_.find((*of)["parents"].at(0).text());
+      of = parent == objects_.end() ? nullptr : parent->second;
+    }
   }
 
   void add(const std::string& id, const JsonValue& object) {
@@ -158,10 +179,8 @@ class Reader {
   void addAttributes(const JsonValue& object, ShapeInput& shape) const {
     shape.attributes.push_back(
         {"cityType", {{PlainValue::Kind::Text, 0, object["type"].text()}}, 0, 0});
-    const JsonValue* of = &object;
-    constexpr int kDeepest = 8;
-    for (int depth = 0; of && depth < kDeepest; ++depth) {
-      for (const JsonValue::Member& member : (*of)["attributes"].members()) {
+    forEachOwner(object, [&](const JsonValue& of) {
+      for (const JsonValue::Member& member : of["attributes"].members()) {
         work();
         ShapeInput one;
         addAttribute(member, one);
@@ -171,9 +190,7 @@ class Reader {
           shape.attributes.push_back(std::move(one.attributes[0]));
         }
       }
-      const auto parent = objects_.find((*of)["parents"].at(0).text());
-      of = parent == objects_.end() ? nullptr : parent->second;
-    }
+    });
   }
 
   const JsonValue& root_;
