@@ -26,6 +26,8 @@ for name in "${examples[@]}"; do
     step "Drawing $drawn" "picture-$drawn.log" \
       render_example "$gable" "$name" "build/pictures/$drawn.png" "$view" \
       --size 1200x675 $(samples "$name" "$view") || exit 1
+    # Without a file that is imported the picture lacks what lies around.
+    ! grep -q import-not-found "build/log/picture-$drawn.log" || die "$drawn: an import is missing, see build/log/picture-$drawn.log"
     python3 -B tools/shrink_png.py "build/pictures/$drawn.png" "examples/$name/$drawn.png"
   done
 done
