@@ -233,7 +233,6 @@ CityParts::CityParts(const Scene& scene) {
     work(name.size());
     names_.push_back(cityWordOf(name));
     trims_.push_back(trimKindOf(name));
-    hasTrim_ = hasTrim_ || trims_.back() != CityKind::Unknown;
   }
   for (const SourcePlace& s : scene.sources) {
     work(s.rule.size());

@@ -141,8 +141,6 @@ class CityParts {
   const CityPart* wholePart(uint32_t prototype) const { return named_.one(prototype); }
   /// The same by attributes alone; its kind may be unknown.
   const CityPart* wholeSaid(uint32_t prototype) const { return said_.one(prototype); }
-  /// Some leaf of the scene is trim.
-  bool hasTrim() const { return hasTrim_; }
   /// Names or attributes say an opening of some leaf of a prototype, instances expanded.
   bool hasOpening(uint32_t prototype) const { return hasOpening_[prototype]; }
   /// Of a prototype, instances expanded.
@@ -176,7 +174,6 @@ class CityParts {
   // By mesh: the height of a body, where a leaf of a lot shows it.
   std::vector<std::optional<double>> bodies_;
   std::vector<CityKind> trims_;
-  bool hasTrim_ = false;
   std::vector<CityPart> setParts_;
   std::vector<std::string> texts_{""};
   std::map<std::string, uint32_t> textNumbers_;

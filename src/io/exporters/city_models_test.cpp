@@ -625,6 +625,9 @@ TEST(CityJsonWriter, whatLiesAtTheFootIsLand) {
   lawn.name = c.name("Green");
   lawn.source = 1;
   c.box("Ramp", {3, 3, 9}, {2, 0.1, 1});
+  Leaf& said = c.leaf(kUnitQuadXz, Frame::moved({0, 0, 0}), {9, 1, 9});
+  said.name = c.name("Slab");
+  said.attributes = c.says("cityPart", "Ground");
   c.root("a", c.prototype("Lot"), Frame{});
   const JsonValue model = written(c.scene, "lawn.city.json");
   ASSERT_EQ(model["CityObjects"].members().size(), 2u);

@@ -61,7 +61,9 @@ void RootParts::settle(const Scene& scene, const Root& root, CityFaces& faces,
     const Frame world = around * leaf.frame;
     const Label* label = this->label();
     CityPart said = partWithin(partOf(leaf, label), kindOfShape);
-    const bool isOpen = said.kind == CityKind::Unknown || said.kind == CityKind::Ground;
+    // A name alone may call the earth around a building its ground.
+    const bool byName = !label && kinds_.saidBy(leaf).kind == CityKind::Unknown;
+    const bool isOpen = said.kind == CityKind::Unknown || (said.kind == CityKind::Ground && byName);
     if (isOpen && liesAtFoot(leaf, world, faces, foot)) said.kind = CityKind::Land;
     // What a label says of trim counts where it touches nothing that says more.
     const CityPart named = partWithin(kinds_.of(leaf), kindOfShape);
