@@ -689,6 +689,26 @@ TEST(Ifc, whatNothingSaysIsToldOrSeen) {
   EXPECT_NE(report->warnings[0].find("Brick (1)"), std::string::npos);
 }
 
+// Sheets that stand several times are told by where they look, too.
+TEST(Ifc, whatIsSharedIsSeenAsWell) {
+  City c;
+  Leaf& tiles = c.leaf(kUnitQuadXz, Frame{}, {4, 1, 4});
+  tiles.name = c.name("Tiles");
+  tiles.source = 1;
+  const uint32_t slope = c.prototype("Slope");
+  c.box("Wall", {0, 0, 0}, {8, 6, 4});
+  c.instance(slope, Frame::moved({0, 6, 0}));
+  c.instance(slope, Frame::moved({5, 6, 0}));
+  c.root("a", c.prototype("Lot"), Frame{});
+  const std::string path = inWritten("slopes.ifc");
+  auto report = writeModel(c.scene, path, {});
+  ASSERT_TRUE(report.ok());
+  EXPECT_TRUE(report->warnings.empty());
+  const std::string text = readFile(path).value();
+  EXPECT_EQ(countOf(text, "=IFCROOF("), 2u);
+  EXPECT_EQ(countOf(text, "=IFCBUILDINGELEMENTPROXY("), 0u);
+}
+
 TEST(CityJsonWriter, objectsHaveTheIdsOfMaps) {
   City c = houseWithGarden();
   c.scene.roots[0].name = c.name("Building");

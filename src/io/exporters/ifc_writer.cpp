@@ -456,7 +456,7 @@ void IfcWriter::writeRoot(uint32_t number) {
   const auto enter = [&](const Instance& in, const Frame& world) {
     const std::optional<CityPart> part = parts_.element(in.prototype);
     if (!part || (kinds_.uses(in.prototype) < 2 && !isSolitary(part->kind))) return true;
-    addInstance(in, world, partWithin(*part, kind));
+    addInstance(in, world, *part);
     parts_.skip(in.prototype);
     return false;
   };

@@ -127,9 +127,10 @@ std::optional<CityPart> RootParts::solitary(uint32_t prototype) {
 }
 
 std::optional<CityPart> RootParts::element(uint32_t prototype) {
-  const uint64_t count = kinds_.leafCount(prototype);
   if (const auto part = solitary(prototype)) return part;
-  return runs_ && runs_->isOne(at_, count) ? std::optional(runs_->part(at_)) : std::nullopt;
+  if (!runs_->isOne(at_, kinds_.leafCount(prototype))) return std::nullopt;
+  const CityPart& part = runs_->part(at_);
+  return part.kind == CityKind::Unknown ? std::nullopt : std::optional(part);
 }
 
 std::optional<CityPart> RootParts::whole(uint32_t prototype) {

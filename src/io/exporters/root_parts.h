@@ -35,7 +35,8 @@ class RootParts {
   bool begins() const { return runs_->begins(at_ - 1); }
   /// The part of an instance that comes next and stands for itself, such as a tree.
   std::optional<CityPart> solitary(uint32_t prototype);
-  /// After settle(): that of one whose leaves are an element.
+  /// After settle(): that of one whose leaves are an element, if it is known. What is unknown is
+  /// told by where its leaves look.
   std::optional<CityPart> element(uint32_t prototype);
   /// The instance that comes next was taken as a whole.
   void skip(uint32_t prototype) { at_ += kinds_.leafCount(prototype); }
