@@ -25,9 +25,11 @@ constexpr CityKindSpec kSpecs[kCityKinds] = {
     {"Ground", "GroundSurface", nullptr, "IfcSlab", "foundation ground"},
     {"Ceiling", "OuterCeilingSurface", nullptr, "IfcCovering", "ceiling ceilings soffit"},
     {"Window", "Window", nullptr, "IfcWindow",
-     "window windows glass glazing pane panes sash shutter shutters skylight"},
+     "window windows glass glazing pane panes sash shutter shutters skylight",
+     "frame frames bar bars mullion mullions muntin muntins"},
     {"Door", "Door", nullptr, "IfcDoor", "door doors gate entrance portal"},
-    {"Covering", nullptr, nullptr, "IfcCovering", "covering cladding"},
+    {"Covering", nullptr, nullptr, "IfcCovering", "covering cladding",
+     "sill sills trim trims moulding mouldings cornice cornices"},
     {"Stair", nullptr, "BuildingInstallation", "IfcStair", "stair stairs staircase step steps"},
     {"Railing", nullptr, "BuildingInstallation", "IfcRailing",
      "railing railings rail handrail balustrade baluster balusters"},
@@ -62,29 +64,13 @@ constexpr CityKindSpec kSpecs[kCityKinds] = {
     {"Construction", nullptr, "OtherConstruction", "IfcBuildingElementProxy", "construction"},
 };
 
-// Words of small parts that windows have, and other things as well.
-struct TrimWord {
-  std::string_view word;
-  CityKind kind;
-};
-constexpr TrimWord kTrims[] = {
-    {"frame", CityKind::Window},      {"frames", CityKind::Window},
-    {"bar", CityKind::Window},        {"bars", CityKind::Window},
-    {"mullion", CityKind::Window},    {"mullions", CityKind::Window},
-    {"muntin", CityKind::Window},     {"muntins", CityKind::Window},
-    {"sill", CityKind::Covering},     {"sills", CityKind::Covering},
-    {"trim", CityKind::Covering},     {"trims", CityKind::Covering},
-    {"moulding", CityKind::Covering}, {"mouldings", CityKind::Covering},
-    {"cornice", CityKind::Covering},  {"cornices", CityKind::Covering},
-};
-
 // Sorted.
 using Words = std::vector<std::pair<std::string_view, CityKind>>;
 
-Words wordsOfNames() {
+Words wordsOf(const char* CityKindSpec::*list) {
   Words out;
   for (size_t k = 0; k < kCityKinds; ++k) {
-    std::string_view left = kSpecs[k].words;
+    std::string_view left = kSpecs[k].*list;
     while (!left.empty()) {
       const size_t end = std::min(left.find(' '), left.size());
       out.emplace_back(left.substr(0, end), static_cast<CityKind>(k));
@@ -95,12 +81,21 @@ Words wordsOfNames() {
   return out;
 }
 
-CityKind kindOfWord(const std::string& word) {
-  static const Words kWords = wordsOfNames();
+CityKind kindOf(const std::string& word, const Words& words) {
   const auto at =
-      std::lower_bound(kWords.begin(), kWords.end(), word,
+      std::lower_bound(words.begin(), words.end(), word,
                        [](const auto& row, const std::string& w) { return row.first < w; });
-  return at != kWords.end() && at->first == word ? at->second : CityKind::Unknown;
+  return at != words.end() && at->first == word ? at->second : CityKind::Unknown;
+}
+
+CityKind kindOfWord(const std::string& word) {
+  static const Words kWords = wordsOf(&CityKindSpec::words);
+  return kindOf(word, kWords);
+}
+
+CityKind trimKindOfWord(const std::string& word) {
+  static const Words kWords = wordsOf(&CityKindSpec::trim);
+  return kindOf(word, kWords);
 }
 
 bool isUpper(char c) { return c >= 'A' && c <= 'Z'; }
@@ -168,13 +163,6 @@ double heightOfBody(const Mesh& mesh) {
     if (mesh.normal(f).y < kDown) return mesh.bounds().size().y;
   }
   return 0;
-}
-
-CityKind trimKindOfWord(const std::string& word) {
-  for (const TrimWord& t : kTrims) {
-    if (t.word == word) return t.kind;
-  }
-  return CityKind::Unknown;
 }
 
 }  // namespace

@@ -69,6 +69,8 @@ struct CityKindSpec {
   const char* ifc;
   /// The words of names that say it, with blanks between.
   const char* words;
+  /// Words of small parts that it has, and other things as well.
+  const char* trim = "";
 };
 const CityKindSpec& specOf(CityKind kind);
 
