@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Parallel loops that can be stopped. The meter of work() belongs to one thread; tasks on other
-// threads stop when one on the calling thread does.
+// parallelFor() for work that counts: what the threads do counts for the meter of the caller, whose
+// limits end it.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
-#include <exception>
 #include <optional>
 
 #include "base/parallel.h"
@@ -15,44 +13,13 @@
 
 namespace gable {
 
-namespace detail {
-
-/// Says stop to other threads once a task has been left by an exception.
-class SharedStop final : public WorkMeter {
- public:
-  bool look(uint64_t, uint64_t) override { return !stopped_; }
-
-  /// Notices that the task around it is left by an exception.
-  class Watch {
-   public:
-    explicit Watch(SharedStop& stop) : stop_(stop) {}
-    ~Watch() {
-      if (std::uncaught_exceptions() > before_) stop_.stopped_ = true;
-    }
-    Watch(const Watch&) = delete;
-    Watch& operator=(const Watch&) = delete;
-
-   private:
-    SharedStop& stop_;
-    int before_ = std::uncaught_exceptions();
-  };
-
- private:
-  std::atomic<bool> stopped_{false};
-};
-
-}  // namespace detail
-
-/// parallelFor() for tasks that call work(). Where the calling thread's meter says stop, tasks on
-/// all threads unwind soon. What others do is held against no limit.
+/// As parallelFor(). What a limit ends unwinds on the caller, once all workers stand.
 template <class Task>
 void parallelWork(size_t count, unsigned jobs, Task&& task) {
-  detail::SharedStop stop;
+  WorkMeter* const meter = detail::workState.meter;
   parallelFor(count, jobs, [&](size_t i, unsigned worker) {
     std::optional<WorkScope> scope;
-    // Worker 0 is the calling thread.
-    if (worker != 0) scope.emplace(stop);
-    const detail::SharedStop::Watch watch(stop);
+    if (meter) scope.emplace(*meter);
     task(i, worker);
   });
 }

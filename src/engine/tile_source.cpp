@@ -172,7 +172,7 @@ TileTreeOptions tileOptions(const Rules& rules, const TileSettings& settings,
   TileTreeOptions options;
   options.triangles = mostTriangles(settings);
   options.threads = static_cast<unsigned>(std::max(0, settings.derive.jobs.value_or(0)));
-  if (unitShapes(rules) == 0) options.batch = 0;
+  options.together = unitShapes(rules) == 0;
   options.folder = folder;
   options.form = formOf(settings);
   Project* const project = rules.impl().project.get();

@@ -32,7 +32,7 @@ void tile(const Rules& rules, const Shapes& shapes, const std::string& path,
   }
   TileTreeOptions options = tileOptions(rules, settings, folder.path());
   options.meter = &task.allowance();
-  if (options.batch == 0) warnTogether(result.diagnostics);
+  if (options.together) warnTogether(result.diagnostics);
   std::vector<Vec2> middles;
   middles.reserve(shapes.size());
   for (size_t i = 0; i < shapes.size(); ++i) middles.push_back(source.middle(i));

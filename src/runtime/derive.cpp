@@ -193,11 +193,15 @@ void takeTrace(Pass& pass, const TagTable& tags, DeriveResult& result) {
     if (isNew) result.traceTags.push_back(tags.names(set));
     return at->second;
   };
+  size_t count = 0;
+  for (const Pass::Range& r : pass.ranges) count += r.traceEnd - r.traceBegin;
+  all.reserve(count);
   for (const Pass::Range& r : pass.ranges) {
     Tracer& tracer = pass.machines[r.worker]->tracer();
     const std::vector<TraceNode>& nodes = tracer.nodes();
     const size_t shift = all.size();
     for (size_t i = r.traceBegin; i < r.traceEnd; ++i) {
+      work();
       TraceNode n = nodes[i];
       if (n.parent != TraceNode::kNone) {
         n.parent = static_cast<uint32_t>(n.parent - r.traceBegin + shift);
@@ -206,6 +210,7 @@ void takeTrace(Pass& pass, const TagTable& tags, DeriveResult& result) {
       all.push_back(n);
     }
     for (size_t i = r.noteBegin; i < r.noteEnd; ++i) {
+      work();
       TraceNote note = std::move(tracer.notes()[i]);
       note.node = static_cast<uint32_t>(note.node - r.traceBegin + shift);
       result.notes.push_back(std::move(note));

@@ -35,7 +35,7 @@ double meanNumber(const std::vector<uint8_t>& rgba) {
 }  // namespace
 
 Finish TextureTints::of(const Material& m) {
-  const Vec3& picture = meanLight(m.map(TextureLayer::Color).path);
+  const Vec3 picture = meanLight(m.map(TextureLayer::Color).path);
   Finish finish;
   for (size_t i = 0; i < 3; ++i) finish.color[i] = linearOf(m.color[i]) * picture[i];
   // Numbers, not light: glTF has them in green, as single channels have.
@@ -43,16 +43,25 @@ Finish TextureTints::of(const Material& m) {
   return finish;
 }
 
-const Vec3& TextureTints::meanLight(const std::string& path) {
-  const auto [at, fresh] = colors_.try_emplace(path, Vec3{1, 1, 1});
-  if (fresh && !path.empty()) at->second = gable::meanLight(rgbaOf(path));
-  return at->second;
+template <class Mean, class Make>
+Mean TextureTints::known(std::map<std::string, Mean>& means, const std::string& path, Make&& make) {
+  {
+    const std::lock_guard lock(knowing_);
+    const auto at = means.find(path);
+    if (at != means.end()) return at->second;
+  }
+  // Reading may be stopped, so it holds no lock.
+  const Mean mean = make(rgbaOf(path));
+  const std::lock_guard lock(knowing_);
+  return means.emplace(path, mean).first->second;
+}
+
+Vec3 TextureTints::meanLight(const std::string& path) {
+  return path.empty() ? Vec3{1, 1, 1} : known(colors_, path, gable::meanLight);
 }
 
 double TextureTints::meanNumber(const std::string& path) {
-  const auto [at, fresh] = numbers_.try_emplace(path, 1);
-  if (fresh && !path.empty()) at->second = gable::meanNumber(rgbaOf(path));
-  return at->second;
+  return path.empty() ? 1 : known(numbers_, path, gable::meanNumber);
 }
 
 std::vector<uint8_t> TextureTints::rgbaOf(const std::string& path) const {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <map>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -18,16 +19,21 @@ class TextureTints {
  public:
   /// The reader has to outlive it.
   explicit TextureTints(const TextureReader& read) : read_(read) {}
-  /// A texture that cannot be read is white.
+  /// A texture that cannot be read is white. Threads may call it at a time.
   Finish of(const Material& m);
 
  private:
-  const Vec3& meanLight(const std::string& path);
+  Vec3 meanLight(const std::string& path);
   double meanNumber(const std::string& path);
   /// Empty where it cannot be read.
   std::vector<uint8_t> rgbaOf(const std::string& path) const;
 
+  /// What is known of a path; what is made for it where nothing is, by a thread or several.
+  template <class Mean, class Make>
+  Mean known(std::map<std::string, Mean>& means, const std::string& path, Make&& make);
+
   const TextureReader& read_;
+  std::mutex knowing_;
   /// By path.
   std::map<std::string, Vec3> colors_;
   std::map<std::string, double> numbers_;

@@ -17,9 +17,10 @@
 #include "base/bytes.h"
 #include "base/files.h"
 #include "base/json.h"
-#include "base/parallel.h"
+#include "base/spare_threads.h"
 #include "io/exporters/plan.h"
 #include "io/exporters/surface.h"
+#include "scene/flatten.h"
 #include "tiles/texture_tints.h"
 #include "tiles/tile_images.h"
 
@@ -220,7 +221,11 @@ void dropNothing(std::vector<Branch>& branches) {
 class Builder {
  public:
   Builder(TileSource& source, const TileTreeOptions& options)
-      : source_(source), options_(options), coverer_(options) {}
+      : source_(source),
+        options_(options),
+        coverer_(options),
+        threads_(options.threads),
+        tints_(options.readTexture) {}
 
   Result<TilePart> run(const TileSquare& square, const TileUnit& unit) {
     std::vector<Branch> one;
@@ -234,46 +239,85 @@ class Builder {
   }
 
  private:
+  // A scene, and what holds for all of its roots.
+  struct Derived {
+    std::shared_ptr<const Scene> scene;
+    /// By root, ascending.
+    std::vector<size_t> shapes;
+    /// By mesh; by prototype: as sharedPrototypes() gives it, and with instances expanded.
+    std::vector<uint32_t> triangles, shared;
+    std::vector<uint64_t> leaves;
+  };
+
+  Result<Derived> derive(std::vector<size_t> shapes) {
+    const Result<std::shared_ptr<const Scene>> scene = source_.derive(shapes);
+    if (!scene.ok()) return scene.error();
+    const Scene& s = *scene.value();
+    Derived out{scene.value(), std::move(shapes), {}, {}, prototypeLeafCounts(s)};
+    out.triangles.resize(s.meshes.size());
+    for (size_t m = 0; m < out.triangles.size(); ++m) {
+      for (const SlotTally& t : slotTallies(*s.meshes[m])) out.triangles[m] += t.triangles;
+    }
+    out.shared = sharedPrototypes(s, out.triangles);
+    return out;
+  }
+
   Branch build(const TileSquare& square, std::vector<size_t> shapes, const std::string& name,
                int depth) {
     if (shapes.empty()) return {};
-    if (options_.batch == 0 || shapes.size() <= options_.batch || depth >= kDeepestSquare) {
-      Result<std::shared_ptr<const Scene>> scene = source_.derive(shapes);
-      if (!scene.ok()) return failed(scene.error());
-      return split(square, contentOf(scene.value(), shapes), name, depth);
+    if (options_.together && !whole_) {
+      Result<Derived> whole = derive(shapes);
+      if (!whole.ok()) return failed(whole.error());
+      whole_ = std::move(whole.value());
+    }
+    if (shapes.size() <= options_.batch || depth >= kDeepestSquare) {
+      if (whole_) return split(square, contentOf(*whole_, shapes), name, depth);
+      const Result<Derived> batch = derive(shapes);
+      if (!batch.ok()) return failed(batch.error());
+      return split(square, contentOf(batch.value(), shapes), name, depth);
     }
     std::array<std::vector<size_t>, 4> quarters;
     for (const size_t s : shapes) quarters[square.quarterOf(source_.middle(s))].push_back(s);
     shapes = {};
-    std::vector<Branch> branches;
-    for (size_t q = 0; q < 4; ++q) {
-      branches.push_back(build(square.quarter(q), std::move(quarters[q]),
-                               name + static_cast<char>('0' + q), depth + 1));
-      if (branches.back().error) return std::move(branches.back());
+    std::vector<Branch> branches(4);
+    const auto buildOne = [&](size_t q) {
+      branches[q] = build(square.quarter(q), std::move(quarters[q]),
+                          name + static_cast<char>('0' + q), depth + 1);
+    };
+    if (whole_) {
+      each(4, buildOne);
+    } else {
+      for (size_t q = 0; q < 4 && !(q > 0 && branches[q - 1].error); ++q) buildOne(q);
     }
     return join(square, std::move(branches), name);
   }
 
-  TileContent contentOf(const std::shared_ptr<const Scene>& scene,
-                        const std::vector<size_t>& shapes) const {
+  // What some of the shapes of a scene have become.
+  TileContent contentOf(const Derived& derived, const std::vector<size_t>& shapes) const {
+    const std::shared_ptr<const Scene>& scene = derived.scene;
     TileContent out;
     out.scenes.push_back(scene);
-    std::vector<uint32_t> triangles(scene->meshes.size());
-    for (size_t m = 0; m < triangles.size(); ++m) {
-      for (const SlotTally& s : slotTallies(*scene->meshes[m])) triangles[m] += s.triangles;
+    std::vector<const Instance*> roots;
+    uint64_t leaves = 0;
+    for (const size_t s : shapes) {
+      const auto at = std::lower_bound(derived.shapes.begin(), derived.shapes.end(), s);
+      const auto r = static_cast<size_t>(at - derived.shapes.begin());
+      if (r >= scene->roots.size()) break;
+      roots.push_back(&scene->roots[r].instance);
+      leaves = saturatingAdd(leaves, derived.leaves[roots.back()->prototype]);
     }
-    const std::vector<uint32_t> shared = sharedPrototypes(*scene, triangles);
-    for (size_t i = 0; i < shapes.size() && i < scene->roots.size(); ++i) {
-      const Instance& root = scene->roots[i].instance;
+    reserveWork(out.leaves, static_cast<double>(leaves));
+    for (size_t i = 0; i < roots.size(); ++i) {
+      const Instance& root = *roots[i];
       const auto feature = static_cast<uint32_t>(out.features.size());
       double low = std::numeric_limits<double>::infinity(), high = -low;
       // The level at which the placement began that leaves are part of; none below it.
       size_t within = std::numeric_limits<size_t>::max();
       const auto place = [&](const Instance& in, const Frame& world, size_t level) {
         if (level <= within) within = std::numeric_limits<size_t>::max();
-        if (level < within && shared[in.prototype] != TileLeaf::kNone) {
+        if (level < within && derived.shared[in.prototype] != TileLeaf::kNone) {
           within = level;
-          out.placements.push_back({0, shared[in.prototype], feature, world});
+          out.placements.push_back({0, derived.shared[in.prototype], feature, world});
         }
         return true;
       };
@@ -286,12 +330,11 @@ class Builder {
             0,
             leaf,
             feature,
-            triangles[l.mesh],
+            derived.triangles[l.mesh],
             placed ? static_cast<uint32_t>(out.placements.size() - 1) : TileLeaf::kNone,
             world * l.frame};
         out.leaves.push_back(t);
         includeHeights(localBox(*scene, l), t.world, low, high);
-        if (out.leaves.size() % 65536 == 0) workMemory(65536 * sizeof(TileLeaf));
       };
       const size_t before = out.leaves.size();
       walk(*scene, scene->prototypes[root.prototype], root.frame, add, place);
@@ -404,13 +447,9 @@ class Builder {
     return out;
   }
 
-  Branch split(TileSquare square, TileContent content, const std::string& name, int depth) {
-    if (content.leaves.empty()) return {};
-    if (content.triangles <= options_.triangles || depth >= kDeepestSquare) {
-      return open(std::move(content), name);
-    }
-    std::vector<Box3> boxes = boxesOf(content);
-    if (isSmallFor(square, content, boxes)) return open(std::move(content), name);
+  // What belongs to the quarters of a square, which becomes one around all of it.
+  std::array<TileContent, 4> quartersOf(TileSquare& square, const TileContent& content,
+                                        std::vector<Box3> boxes) const {
     const std::vector<Vec2> points = pointsOf(content, boxes);
     boxes = {};
     Box2 box;
@@ -419,8 +458,11 @@ class Builder {
     if (!square.holds(box)) square = squareAround(box);
     std::array<TileContent, 4> quarters;
     std::array<std::vector<uint32_t>, 4> numbers, placed;
+    std::array<size_t, 4> count{};
+    for (const Vec2 p : points) ++count[square.quarterOf(p)];
     for (size_t q = 0; q < 4; ++q) {
       quarters[q].scenes = content.scenes;
+      quarters[q].leaves.reserve(count[q]);
       numbers[q].assign(content.features.size(), 0xffffffff);
       placed[q].assign(content.placements.size(), 0xffffffff);
     }
@@ -444,19 +486,32 @@ class Builder {
       }
       quarters[q].leaves.push_back(l);
     }
-    for (TileContent& quarter : quarters) quarter.measure();
-    content = {};
-    std::vector<Branch> branches;
-    for (size_t q = 0; q < 4; ++q) {
-      branches.push_back(split(square.quarter(q), std::move(quarters[q]),
-                               name + static_cast<char>('0' + q), depth + 1));
-      if (branches.back().error) return std::move(branches.back());
+    return quarters;
+  }
+
+  Branch split(TileSquare square, TileContent content, const std::string& name, int depth) {
+    if (content.leaves.empty()) return {};
+    if (content.triangles <= options_.triangles || depth >= kDeepestSquare) {
+      return open(std::move(content), name);
     }
+    std::vector<Box3> boxes = boxesOf(content);
+    if (isSmallFor(square, content, boxes)) return open(std::move(content), name);
+    std::array<TileContent, 4> quarters = quartersOf(square, content, std::move(boxes));
+    content = {};
+    std::vector<Branch> branches(4);
+    each(4, [&](size_t q) {
+      quarters[q].measure();
+      branches[q] = split(square.quarter(q), std::move(quarters[q]),
+                          name + static_cast<char>('0' + q), depth + 1);
+    });
     return join(square, std::move(branches), name);
   }
 
   // The square of four quarters: one tile where they are small together, else a coarse one above.
   Branch join(const TileSquare& square, std::vector<Branch> branches, const std::string& name) {
+    for (Branch& b : branches) {
+      if (b.error) return std::move(b);
+    }
     dropNothing(branches);
     if (branches.empty()) return {};
     if (branches.size() == 1) return std::move(branches[0]);
@@ -474,11 +529,18 @@ class Builder {
     return coverer_.cover(branches, square, name);
   }
 
-  // Writes the tiles of those that are open.
-  void finish(std::vector<Branch>& branches, double tolerance) {
-    parallelFor(branches.size(), options_.threads, [&](size_t i, unsigned) {
+  // On the threads that are idle, too.
+  void each(size_t count, const std::function<void(size_t)>& task) {
+    threads_.run(count, [&](size_t i) {
       std::optional<WorkScope> scope;
       if (options_.meter) scope.emplace(*options_.meter);
+      task(i);
+    });
+  }
+
+  // Writes the tiles of those that are open.
+  void finish(std::vector<Branch>& branches, double tolerance) {
+    each(branches.size(), [&](size_t i) {
       if (branches[i].state == Branch::State::Open) finishOne(branches[i], tolerance);
     });
   }
@@ -490,8 +552,8 @@ class Builder {
     const TileMesh mesh = meshOf(b.content, options);
     b.state = mesh.triangles > 0 ? Branch::State::Done : Branch::State::Nothing;
     if (mesh.triangles > 0) {
-      TextureTints tints(options_.readTexture);
-      b.part.coarse = partsOf(b.content, tolerance, [&](const Material& m) { return tints.of(m); });
+      const auto finishOf = [&](const Material& m) { return tints_.of(m); };
+      b.part.coarse = partsOf(b.content, tolerance, finishOf);
       b.part.root.emplace();
       b.part.triangles = mesh.triangles;
       coverer_.write(b, mesh);
@@ -502,6 +564,10 @@ class Builder {
   TileSource& source_;
   const TileTreeOptions& options_;
   Coverer coverer_;
+  SpareThreads threads_;
+  TextureTints tints_;
+  /// Of all shapes of the unit, where they are derived together.
+  std::optional<Derived> whole_;
 };
 
 // The tiles above units.

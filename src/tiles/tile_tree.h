@@ -64,8 +64,10 @@ struct TilePart {
 struct TileTreeOptions {
   /// Of a tile at most, but where much stands in one place; of a coarse one as far as that can be.
   uint64_t triangles = 65'536;
-  /// Shapes that are derived together; 0: all of a unit.
+  /// Shapes that are derived, and divided among squares, at a time.
   size_t batch = 512;
+  /// Shapes ask about each other: all of a unit are derived at a time.
+  bool together = false;
   /// A tileset with more nodes has its larger parts in files of their own.
   uint64_t mostNodes = 1000;
   unsigned threads = 0;

@@ -388,6 +388,24 @@ class Tiles(Case):
         self.assertIn("tiles-together", told)
         self.assertEqual([t.triangles() for _, _, t in self.walk("out")], [6 * 12])
 
+    def testManyShapesThatAskAreDividedAsOthersAre(self):
+        # More than are divided at a time, far from each other but for every tenth.
+        lots = [feature("Polygon", square(30 * (x % 40) + (20 if x % 10 == 0 else 0), 30 * (x // 40), 15), id=str(x)) for x in range(1200)]
+        self.put("lots.geojson", json.dumps(dict(MAP, features=lots)))
+        ask = "Lot --> extrude(5) label(\"x\") Block\nBlock --> case touches(inter) || overlaps(inter): NIL else: X.\n"
+        self.put("near.cga", ask)
+        for jobs in ("1", "3"):
+            told = self.run_gable("tiles", "near.cga", "--shapes", "lots.geojson", "--jobs", jobs, "--tile-triangles", "1000", "-o",
+                                  f"{jobs}/")
+            self.assertIn("tiles-together", told)
+        full = [t.triangles() for node, _, t in self.walk("1") if not node.get("children")]
+        self.run_gable("generate", "near.cga", "--shapes", "lots.geojson", "--stats", "all.json", "-o", "all.glb")
+        whole = json.loads((self.folder / "all.json").read_text())["triangles"]
+        self.assertLess(whole, 1200 * 12)
+        self.assertEqual(sum(full), whole)
+        self.assertGreater(len(full), 10)
+        self.assertEqual(self.contents("1"), self.contents("3"))
+
     def testAFullDiskLeavesNoTileset(self):
         def full_disk():
             signal.signal(signal.SIGXFSZ, signal.SIG_DFL)

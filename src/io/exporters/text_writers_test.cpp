@@ -94,6 +94,24 @@ TEST_F(TextWriters, objShowsTheSceneToAMicrometre) {
   EXPECT_NE(text("street.obj").find("\no house_0\ng Core\nusemtl wall\n"), std::string::npos);
 }
 
+// More leaves than a block has, in more blocks than are written at a time.
+TEST_F(TextWriters, objIsTheSameForAnyNumberOfThreads) {
+  const Scene s = testing::street(120);
+  std::string first;
+  for (const unsigned jobs : {1u, 2u, 5u}) {
+    WriteOptions options;
+    options.jobs = jobs;
+    const WriteReport report = write(s, "long.obj", options);
+    EXPECT_EQ(report.triangles, count(s).triangles) << jobs;
+    if (first.empty()) first = text("long.obj");
+    EXPECT_TRUE(text("long.obj") == first) << jobs;
+  }
+  const Asset back = readBack("long.obj");
+  ASSERT_TRUE(back.mesh);
+  EXPECT_TRUE(back.warnings.empty());
+  EXPECT_NEAR(back.mesh->area() / testing::areaOf(s), 1, 1e-8);
+}
+
 // MTL has no turn of a texture: the coordinates are turned, and other materials keep theirs.
 TEST_F(TextWriters, objTurnsTextureCoordinates) {
   testing::SceneBuilder b;

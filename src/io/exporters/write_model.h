@@ -100,6 +100,8 @@ struct WriteOptions {
   /// City models and building models: the labels of a root's leaves, ascending and without
   /// overlaps. Without a function there are none.
   std::function<std::vector<LabelledLeaves>(size_t root)> labelsOf;
+  /// Threads, where a format takes several; 0: as many as there are processors.
+  unsigned jobs = 0;
   /// Where the world lies on the Earth; null where the scene's origin says it, or nobody knows.
   const GeoFrame* geo = nullptr;
 };
