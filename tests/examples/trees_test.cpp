@@ -369,7 +369,7 @@ TEST(People, areTwelveLooksThatStandOnTheGround) {
       EXPECT_EQ(joined(faults(model.impl().result.scene)), "");
       const SceneCounts counted = count(model.impl().result.scene);
       const Vec3 size = counted.bounds.max - counted.bounds.min;
-      EXPECT_LT(counted.triangles, 600u);
+      EXPECT_LT(counted.triangles, 950u);
       EXPECT_LT(size.x, 1.2);
       if (sits) continue;
       EXPECT_GT(size.y, 1.1);
