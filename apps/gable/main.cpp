@@ -9,6 +9,8 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <string_view>
+#include <vector>
 
 #include "answer.h"
 #include "city.h"
@@ -646,10 +648,24 @@ void addStudio(CLI::App& app, StudioArguments& a, int& status) {
   studio->callback([&a, &status] { status = runStudioCommand(a); });
 }
 
+// `gable help tiles plan` is `gable tiles plan --help`, as people know it from other programs.
+std::vector<char*> withHelpBehind(int argc, char** argv) {
+  static char option[] = "--help";
+  std::vector<char*> out(argv, argv + argc);
+  if (argc > 1 && std::string_view(argv[1]) == "help") {
+    out.erase(out.begin() + 1);
+    out.push_back(option);
+  }
+  return out;
+}
+
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argumentCount, char** arguments) {
   useLargePages();
+  std::vector<char*> line = withHelpBehind(argumentCount, arguments);
+  const int argc = static_cast<int>(line.size());
+  char** const argv = line.data();
   CLI::App app("Gable turns rules into places: shape grammars (CGA) in, 3D models out.", "gable");
   app.set_version_flag("--version", versionText());
   app.footer(exitText() +

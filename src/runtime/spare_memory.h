@@ -46,14 +46,16 @@ class SpareMemory {
 SpareBlocks blocksOf(DeriveResult& result);
 
 /// An empty list with room for so many: the spare one, unless that has too little or many times too
-/// much.
+/// much. A new one has some room more: the next model may be a little larger, and pages that nobody
+/// touches cost nothing.
 template <class T>
 std::vector<T> withRoom(std::vector<T> spare, size_t count) {
   constexpr size_t kTimesTooLarge = 4;
-  if (spare.capacity() < count || spare.capacity() > kTimesTooLarge * count)
+  if (spare.capacity() < count || spare.capacity() > kTimesTooLarge * count) {
     spare = std::vector<T>();
+    spare.reserve(count + count / 8);
+  }
   spare.clear();
-  spare.reserve(count);
   return spare;
 }
 

@@ -30,6 +30,12 @@ TEST(SpareMemory, takesABlockThatFits) {
   EXPECT_GE(list.capacity(), 200u);
 }
 
+TEST(SpareMemory, aListHasRoomForALittleMoreTheNextTime) {
+  std::vector<Leaf> spare = withRoom(std::vector<Leaf>(), 1000);
+  const Leaf* const place = spare.data();
+  EXPECT_EQ(withRoom(std::move(spare), 1100).data(), place);
+}
+
 TEST(SpareMemory, givesBackWhatIsTooSmallOrMuchTooLarge) {
   EXPECT_GE(withRoom(roomFor(100), 200).capacity(), 200u);
   EXPECT_LT(withRoom(roomFor(100'000), 200).capacity(), 100'000u);

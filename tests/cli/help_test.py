@@ -222,6 +222,11 @@ class Endings(Case):
             self.assertEqual([e for e in known if e + " " not in output.replace("\n", " ").replace(";", " ") + " "], [], command)
 
 
+    def testHelpIsAWordToo(self):
+        self.assertEqual(self.run_gable("help"), self.run_gable("--help"))
+        self.assertEqual(self.run_gable("help", "tiles", "plan"), self.run_gable("tiles", "plan", "--help"))
+
+
 class Man(Case):
     def testEveryCommandHasAPage(self):
         self.run_gable("man", "-o", "pages")

@@ -2,9 +2,10 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // The analysis as a whole: load, declare, infer, report. Types of parameters, functions and
-// attributes depend on each other in circles, so all bodies are walked in silent rounds until
-// nothing changes; types only ever become known or are left open, which bounds the rounds. One more
-// round reports.
+// attributes depend on each other in circles, so bodies are walked in silent rounds until nothing
+// changes: all of them once, and then those that have looked up what has changed since. Types only
+// ever become known or are left open, which bounds the rounds. One more round walks all, and
+// reports.
 
 #include "lang/sema/analyse.h"
 
@@ -113,6 +114,7 @@ void Analysis::walkRule(RuleId id) {
   const NodeId node = r.node;
   openFrame(r.module, node, r.paramTypes, openRules_[id]);
   body_.rule = id;
+  body_.unit = beginWalk(UnitKind::Rule, id);
   walkLocals(node);
   visitSequence(bodyOf(tree(), node));
   if (!runsInPlace()) reportUnused(bodyOf(tree(), node));
@@ -125,6 +127,7 @@ void Analysis::walkFunction(FunctionId id) {
   const FunctionInfo& f = program_.functions[id];
   const NodeId node = f.node;
   openFrame(f.module, node, f.paramTypes, openFunctions_[id]);
+  body_.unit = beginWalk(UnitKind::Function, id);
   walkLocals(node);
   const NodeId value = bodyOf(tree(), node);
   const ValueType type = visit(value, f.result);
@@ -142,6 +145,7 @@ void Analysis::walkAttribute(AttributeId id) {
   const NodeId node = program_.attributes[id].node;
   openFrame(program_.attributes[id].module, node, {}, {});
   body_.attribute = id;
+  const size_t unit = body_.unit = beginWalk(UnitKind::Attribute, id);
   walkLocals(node);
   const ValueType type = visit(bodyOf(tree(), node));
   AttributeInfo& a = program_.attributes[id];
@@ -155,61 +159,59 @@ void Analysis::walkAttribute(AttributeId id) {
   body_ = {};
   body_.module = a.valueModule;
   body_.attribute = id;
+  body_.unit = unit;
   expectType(value, visit(value, wanted), wanted, "the value of this attribute");
 }
 
 // A type of a parameter, a function or an attribute has become known, or is left open.
 void Analysis::settle() {
   changed_ = true;
-  // Modules that have come in this round count as settled anyway.
-  if (body_.module < settledIn_.size()) settledIn_[body_.module] = true;
+  walked_[body_.unit].changedAt = ++steps_;
 }
 
-// The modules whose rules the last round may have left with other types than they have now. A rule
-// sees its own module and the imports below; those above only where they put rules in the place of
-// imported ones.
-std::vector<bool> Analysis::unsettled() const {
-  const size_t count = program_.modules.size();
-  // What a module above has settled, and below: modules come behind their importers.
-  std::vector<bool> settled = settledIn_, above(count), below, replaced(count), out(count);
-  settled.resize(count, true);
-  below = settled;
-  const auto importer = [&](size_t m) { return program_.modules[m].importer; };
-  for (size_t m = 0; m < count; ++m) {
-    replaced[m] = !scopes_[m].replaced.empty();
-    if (importer(m) != kNone) above[m] = above[importer(m)] || settled[importer(m)];
-  }
-  for (size_t m = count; m-- > 0;) {
-    out[m] = below[m] || (replaced[m] && above[m]);
-    if (importer(m) == kNone) continue;
-    if (below[m]) below[importer(m)] = true;
-    if (replaced[m]) replaced[importer(m)] = true;
-  }
-  return out;
+size_t Analysis::beginWalk(UnitKind kind, uint32_t id) {
+  const size_t unit = unitOf(kind, id);
+  if (walked_.size() <= unit) walked_.resize(unit + 1);
+  walked_[unit].at = ++steps_;
+  walked_[unit].looked.clear();
+  return unit;
+}
+
+// Whether a walk may find more than the last one: what it has looked up has changed since, or types
+// of its own have while it was under way.
+bool Analysis::isDue(UnitKind kind, uint32_t id) const {
+  const size_t unit = unitOf(kind, id);
+  if (unit >= walked_.size() || walked_[unit].at == 0) return true;
+  const Walk& last = walked_[unit];
+  const auto isNew = [&](size_t u) { return u < walked_.size() && walked_[u].changedAt > last.at; };
+  return isNew(unit) || std::any_of(last.looked.begin(), last.looked.end(), isNew);
 }
 
 void Analysis::round(bool everything) {
-  const std::vector<bool> open = everything ? std::vector<bool>() : unsettled();
-  const size_t modules = program_.modules.size();
-  settledIn_.assign(modules, false);
   changed_ = false;
-  const auto isOpen = [&](ModuleId m) { return m >= open.size() || open[m]; };
+  const auto isWalked = [&](UnitKind kind, uint32_t id) { return everything || isDue(kind, id); };
   // By index: dynamic imports append to all three while they are walked.
-  for (AttributeId i = 0; i < program_.attributes.size(); ++i) walkAttribute(i);
-  for (FunctionId i = 0; i < program_.functions.size(); ++i) walkFunction(i);
-  for (RuleId i = 0; i < program_.rules.size(); ++i) {
-    if (isOpen(program_.rules[i].module)) walkRule(i);
+  for (AttributeId i = 0; i < program_.attributes.size(); ++i) {
+    if (isWalked(UnitKind::Attribute, i)) walkAttribute(i);
   }
-  changed_ = changed_ || program_.modules.size() != modules;
+  for (FunctionId i = 0; i < program_.functions.size(); ++i) {
+    if (isWalked(UnitKind::Function, i)) walkFunction(i);
+  }
+  for (RuleId i = 0; i < program_.rules.size(); ++i) {
+    if (isWalked(UnitKind::Rule, i)) walkRule(i);
+  }
 }
 
 void Analysis::infer() {
   // Each round that goes on settles at least one type; real programs need three or four.
   constexpr int kRounds = 20;
   mute_ = true;
+  walked_.clear();
   for (int i = 0; i < kRounds; ++i) {
-    round(i == 0);
-    if (!changed_) break;
+    const size_t attributes = program_.attributes.size();
+    round(false);
+    // What a rule has added to the attributes was behind those that were walked.
+    if (!changed_ && program_.attributes.size() == attributes) break;
   }
   mute_ = false;
   round(true);

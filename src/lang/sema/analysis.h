@@ -109,7 +109,10 @@ class Analysis {
     AttributeId attribute = kNone;
     /// Set while a rule is walked.
     RuleId rule = kNone;
+    /// What is walked, as unitOf() numbers it.
+    size_t unit = kNoUnit;
   };
+  static constexpr size_t kNoUnit = static_cast<size_t>(-1);
 
   // --- modules.cpp: files, styles, imports, declarations ---
   uint32_t loadUnit(const std::string& path, Span from, uint32_t importerUnit,
@@ -351,8 +354,19 @@ class Analysis {
   void openFrame(ModuleId module, NodeId declaration, const std::vector<ValueType>& paramTypes,
                  const std::vector<bool>& open);
   void walkLocals(NodeId declaration);
+  /// Rules, functions and attributes, in one row of numbers.
+  enum class UnitKind : uint8_t { Rule, Function, Attribute };
+  static size_t unitOf(UnitKind kind, uint32_t id) {
+    return size_t{id} * 3 + static_cast<size_t>(kind);
+  }
+  /// Gives its number.
+  size_t beginWalk(UnitKind kind, uint32_t id);
+  bool isDue(UnitKind kind, uint32_t id) const;
+  /// The body that is walked depends on the types of that one.
+  void look(UnitKind kind, uint32_t id) const {
+    if (body_.unit != kNoUnit) walked_[body_.unit].looked.push_back(unitOf(kind, id));
+  }
   void round(bool everything);
-  std::vector<bool> unsettled() const;
   void settle();
   void infer();
   template <class Info>
@@ -446,8 +460,15 @@ class Analysis {
   /// The words that may stand for the name at work, beside values.
   std::vector<std::string_view> wordsHere_;
   bool changed_ = false;
-  /// By module: whether this round, or the last one, has settled a type there.
-  std::vector<bool> settledIn_;
+  /// By unit: when it was walked last and when its types changed last, in steps, and what the walk
+  /// has looked up.
+  struct Walk {
+    uint64_t at = 0, changedAt = 0;
+    std::vector<size_t> looked;
+  };
+  /// Look-ups change what they do not give.
+  mutable std::vector<Walk> walked_;
+  uint64_t steps_ = 0;
   int hints_ = 0;
   size_t errors_ = 0;
   size_t warnings_ = 0;

@@ -101,13 +101,16 @@ Analysis::RuleSet Analysis::rulesNamed(ModuleId module, std::string_view name) c
   if (!forwards(owner, rest)) append(scopes_[owner].replaced, rest);
   append(scopes_[owner].rules, rest);
   if (rest == "start" && set.rules.empty()) set.rules = scopes_[owner].startRules;
+  for (const RuleId id : set.rules) look(UnitKind::Rule, id);
   return set;
 }
 
 std::vector<FunctionId> Analysis::functionsNamed(ModuleId module, std::string_view name) const {
   const auto [owner, rest] = enter(module, name);
   const auto at = scopes_[owner].functions.find(rest);
-  return at == scopes_[owner].functions.end() ? std::vector<FunctionId>() : at->second;
+  if (at == scopes_[owner].functions.end()) return {};
+  for (const FunctionId id : at->second) look(UnitKind::Function, id);
+  return at->second;
 }
 
 bool Analysis::isKnownValue(std::string_view name) const {
@@ -120,7 +123,9 @@ bool Analysis::isKnownValue(std::string_view name) const {
 AttributeId Analysis::attributeNamed(ModuleId module, std::string_view name) const {
   const auto [owner, rest] = enter(module, name);
   const auto at = scopes_[owner].attributes.find(rest);
-  return at == scopes_[owner].attributes.end() ? kNone : at->second;
+  if (at == scopes_[owner].attributes.end()) return kNone;
+  look(UnitKind::Attribute, at->second);
+  return at->second;
 }
 
 bool Analysis::ruleInAnyStyle(ModuleId module, std::string_view name) const {
@@ -155,7 +160,10 @@ std::vector<std::string_view> Analysis::valueNames(ModuleId module) const {
 // replacement reads what it replaces: `attr x = imp.x * 2`.
 AttributeId Analysis::ownValueOf(AttributeId attribute) {
   const auto known = ownValues_.find(attribute);
-  if (known != ownValues_.end()) return known->second;
+  if (known != ownValues_.end()) {
+    look(UnitKind::Attribute, known->second);
+    return known->second;
+  }
   AttributeInfo a = program_.attributes[attribute];
   a.id = static_cast<AttributeId>(program_.attributes.size());
   a.constant = true;
@@ -167,6 +175,7 @@ AttributeId Analysis::ownValueOf(AttributeId attribute) {
   const AttributeId id = a.id;
   program_.attributes.push_back(std::move(a));
   ownValues_[attribute] = id;
+  look(UnitKind::Attribute, id);
   return id;
 }
 
