@@ -24,7 +24,7 @@ Scene boxes() {
 }
 
 struct Set {
-  Scene scene = boxes();
+  Scene scene;
   World world = makeWorld(scene, nullptr);
   Tracer tracer{world};
   RenderOptions options;
@@ -32,8 +32,9 @@ struct Set {
   Emitters emitters;
   Stage stage;
 
-  Set()
-      : light(options, 38, 225),
+  explicit Set(Scene s = boxes())
+      : scene(std::move(s)),
+        light(options, 38, 225),
         emitters(world,
                  [](const SurfaceMaterial& m, const Vec3f&, const Vec3f&) { return m.emissive; }),
         stage{world, tracer, light, emitters} {
@@ -88,6 +89,30 @@ TEST(Together, withoutBouncesPathsAreAsTheyAreAlone) {
   Set set;
   set.stage.bounces = 0;
   expectAsAlone(set, false);
+}
+
+// Else its highlight would be added to the lamp's picture in it, as single specks: few of the
+// points on a lamp that are drawn lie where a narrow coat mirrors them.
+TEST(Lamps, areFoundByTheMirrorsThatShowThem) {
+  SceneMaker m;
+  Material glow;
+  glow.color = {0, 0, 0};
+  glow.emissive = {1, 1, 1};
+  m.box({-9, 0, -9}, {18, 0.1, 18}, m.material("#000000", 0.2));
+  m.box({-2, 3, -2}, {4, 0.5, 4}, m.material(glow));
+  Set set(m.finish());
+  set.stage.ground = false;
+  Ray ray;
+  ray.origin = {0, 2, 8};
+  ray.direction = normalized(Vec3f{0, -0.4f, -1});
+  Vec3f direct, indirect;
+  for (uint32_t sample = 0; sample < 64; ++sample) {
+    const PathResult path = tracePath(set.stage, ray, 3, 4, sample, 1);
+    direct += path.direct;
+    indirect += path.indirect;
+  }
+  EXPECT_GT(luminance(direct), 0);
+  EXPECT_EQ(luminance(indirect), 0);
 }
 
 }  // namespace
