@@ -29,6 +29,9 @@ constexpr int kMostPassages = 24;
 constexpr float kUntracedShare = 0.4f;
 /// How narrow the highlight of the sun or a lamp may be on what is not seen directly.
 constexpr float kLeastReflectedAlpha = 0.1f;
+/// Mirrors rougher than this spread what is brighter than white over many pixels, of which few
+/// paths meet it: there white is the most.
+constexpr float kBlurs = 0.15f;
 
 /// A path on its way.
 struct Walk {
@@ -38,6 +41,8 @@ struct Walk {
   /// Until a rough surface is met, light belongs to the part that is not smoothed.
   bool sharp = true;
   bool mirrored = false;
+  /// By a mirror in which no lamp is told from the light about it.
+  bool blurred = false;
   float travelled = 0;
   int passages = 0;
   /// Within water: how far one sees in it, and the light that it scatters; 0 outside.
@@ -123,6 +128,8 @@ class Tracing {
     target(w) += withoutFireflies(w.carried * sky, limit_ * 4);
   }
 
+  float white() const { return 1 / light_.exposure; }
+
   void fade(Walk& w, const Surface& surface, float distance) {
     const float clear = clearAlong(stage_, surface, distance);
     result.direct += w.carried * light_.horizon(w.ray.direction) * (1 - clear);
@@ -141,7 +148,8 @@ class Tracing {
   /// What shines. Surfaces ask for lamps, so a path that comes from one has had this light.
   void shine(const Walk& w, const Surface& surface) {
     if (!w.sharp || maxOf(surface.emissive) <= 0) return;
-    result.direct += w.carried * surface.emissive * light_.shownGlow;
+    const Vec3f shown = surface.emissive * light_.shownGlow;
+    result.direct += w.carried * (w.blurred ? withoutFireflies(shown, white()) : shown);
   }
 
   void gatherSun(const Walk& w, const Surface& surface, const Lobes& lobes, const Vec3f& view) {
@@ -158,7 +166,7 @@ class Tracing {
     const Vec3f lamp = lamplight(w, surface, lobes, view);
     // A mirror shows no more of a surface beside a lamp than the camera sees of it.
     if (w.mirrored && w.sharp)
-      result.direct += w.carried * withoutFireflies(lamp, limit_);
+      result.direct += w.carried * withoutFireflies(lamp, w.blurred ? white() : limit_);
     else
       result.indirect += withoutFireflies(w.carried * lamp, limit_);
   }
@@ -282,6 +290,7 @@ class Tracing {
         Walk other = w;
         other.carried *= off.weight * lobes.coatChance;
         other.mirrored = true;
+        other.blurred = w.blurred || surface.roughness > kBlurs;
         ++other.depth;
         other.blocks += kMirroredBlocks;
         other.ray = startOf(surface, off.direction);
@@ -296,6 +305,7 @@ class Tracing {
     w.carried *= next.weight * share;
     if (next.coat && smooth) {
       w.mirrored = true;
+      w.blurred = w.blurred || surface.roughness > kBlurs;
     } else {
       if (brief_) return false;
       if (stage_.ambient) return lightBySky(w, surface, next.direction);

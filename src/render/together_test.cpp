@@ -91,28 +91,50 @@ TEST(Together, withoutBouncesPathsAreAsTheyAreAlone) {
   expectAsAlone(set, false);
 }
 
-// Else its highlight would be added to the lamp's picture in it, as single specks: few of the
-// points on a lamp that are drawn lie where a narrow coat mirrors them.
-TEST(Lamps, areFoundByTheMirrorsThatShowThem) {
+/// A black plate that mirrors a lamp above it.
+Scene plateUnderLamp(double emissive) {
   SceneMaker m;
   Material glow;
   glow.color = {0, 0, 0};
-  glow.emissive = {1, 1, 1};
+  glow.emissive = {emissive, emissive, emissive};
   m.box({-9, 0, -9}, {18, 0.1, 18}, m.material("#000000", 0.2));
   m.box({-2, 3, -2}, {4, 0.5, 4}, m.material(glow));
-  Set set(m.finish());
+  return m.finish();
+}
+
+/// Calls `look` with paths to the plate.
+template <class Look>
+void lookAtPlate(Set& set, Look&& look) {
   set.stage.ground = false;
   Ray ray;
   ray.origin = {0, 2, 8};
   ray.direction = normalized(Vec3f{0, -0.4f, -1});
-  Vec3f direct, indirect;
   for (uint32_t sample = 0; sample < 64; ++sample) {
-    const PathResult path = tracePath(set.stage, ray, 3, 4, sample, 1);
+    look(tracePath(set.stage, ray, 3, 4, sample, 1));
+  }
+}
+
+// Else its highlight would be added to the lamp's picture in it, as single specks: few of the
+// points on a lamp that are drawn lie where a narrow coat mirrors them.
+TEST(Lamps, areFoundByTheMirrorsThatShowThem) {
+  Set set(plateUnderLamp(1));
+  Vec3f direct, indirect;
+  lookAtPlate(set, [&](const PathResult& path) {
     direct += path.direct;
     indirect += path.indirect;
-  }
+  });
   EXPECT_GT(luminance(direct), 0);
   EXPECT_EQ(luminance(indirect), 0);
+}
+
+TEST(Lamps, areNoSpecksInMirrorsThatBlurThem) {
+  Set set(plateUnderLamp(9));
+  float most = 0;
+  lookAtPlate(set, [&](const PathResult& path) {
+    most = std::max(most, luminance(path.direct) * set.light.exposure);
+  });
+  EXPECT_GT(most, 0.05f);
+  EXPECT_LT(most, 0.6f) << "of white";
 }
 
 }  // namespace
