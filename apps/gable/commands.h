@@ -88,7 +88,8 @@ struct RenderArguments {
   std::string output;
   std::string view = "iso";
   std::string size = "1600x900";
-  int samples = 48;
+  /// Absent: by the size.
+  std::optional<int> samples;
   std::string sun;
   std::string eye, target;
   std::string ground;

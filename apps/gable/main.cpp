@@ -49,8 +49,12 @@ std::string modelEndings() {
 /// What pictures from any camera have; the defaults are those of the arguments.
 void addLookOptions(CLI::App* app, RenderArguments& a) {
   app->add_option("--size", a.size, "Pixels (default " + a.size + ")");
-  app->add_option("--samples", a.samples,
-                  "Paths per pixel (default " + std::to_string(a.samples) + ")")
+  app->add_option(
+         "--samples", a.samples,
+         "Paths per pixel (default " +
+             (a.samples ? std::to_string(*a.samples)
+                        : std::string("24 at 1280x720, fewer in larger pictures, 8 to 48")) +
+             ")")
       ->check(number({1, 65536, true}));
   app->add_option("--look", a.look,
                   "photo, clay, blueprint, ink or section (a model cut open); --style takes these "

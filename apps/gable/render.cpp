@@ -162,6 +162,15 @@ int lightSettings(const RenderArguments& a, gable::PictureSettings& s) {
   return kExitDone;
 }
 
+/// Paths a pixel where nobody says how many. On one screen a pixel of a larger picture is smaller,
+/// and its noise is seen less: by the power of -2/3 of the pixels, pictures of all sizes err alike
+/// once they are scaled down to one (docs/design/pictures.md).
+int usualSamples(double pixels) {
+  constexpr double kPixels = 1280 * 720, kSamples = 24, kLeast = 8, kMost = 48;
+  const double samples = kSamples * std::pow(kPixels / pixels, 2.0 / 3);
+  return static_cast<int>(std::lround(std::clamp(samples, kLeast, kMost)));
+}
+
 }  // namespace
 
 int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
@@ -178,7 +187,7 @@ int pictureSettings(const RenderArguments& a, gable::PictureSettings& s) {
   }
   s.width = static_cast<int>(size[0]);
   s.height = static_cast<int>(size[1]);
-  s.samples = a.samples;
+  s.samples = a.samples.value_or(usualSamples(size[0] * size[1]));
   s.fieldOfView = a.fieldOfView;
   s.pitch = a.pitch;
   s.jobs = a.derive.jobs;

@@ -26,8 +26,9 @@ namespace {
 /// Pixels to each side that a fit looks at, and the gaps between them by pass: the first takes what
 /// jitters from pixel to pixel, the second the blotches that are left of it on plain walls.
 constexpr int kReach = 3, kGaps[] = {1, 3};
-/// The same of light that comes straight from the sky.
-constexpr int kSkyReach = 2;
+/// The same of light that comes straight from the sky. On plain ground, blocks of 4 x 4 pixels have
+/// one light (see film.cpp): the second pass goes from block to block.
+constexpr int kSkyReach = 2, kBlockReach = 1, kBlockGap = 4;
 /// The samples of a pixel count in its neighbours, too, so its mean varies less than its own
 /// samples say: by this.
 constexpr float kShared = 0.3f;
@@ -335,6 +336,7 @@ std::vector<Vec3f> resolve(const Film& film, Smoothing smoothing, unsigned threa
   Guide guide(film);
   if (smoothing == Smoothing::Sky) {
     smooth(guide, kSkyReach, 1, threads);
+    smooth(guide, kBlockReach, kBlockGap, threads);
   } else {
     for (const int gap : kGaps) smooth(guide, kReach, gap, threads);
   }

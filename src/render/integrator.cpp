@@ -3,10 +3,11 @@
 //
 // A path tracer in the manner of Kajiya: at each hit the sun is asked directly and one lamp, then
 // one direction is followed, and a ray that leaves the scene brings the sky's light. The sun's disc
-// and lamps are only ever found by asking, so nothing counts twice. Paths are cut short where they
-// carry little (Russian roulette); the last surface gets a share of the sky in place of what it
-// would have gathered. What the camera sees of a window or of water is split: the mirrored ray and
-// the other one are both followed, since drawing one of them is what noise in glass comes from.
+// is only ever found by asking, and lamps are, but in the mirrors that the camera sees, which do
+// not ask: so nothing counts twice. Paths are cut short where they carry little (Russian roulette);
+// the last surface gets a share of the sky in place of what it would have gathered. What the camera
+// sees of a window or of water is split: the mirrored ray and the other one are both followed,
+// since drawing one of them is what noise in glass comes from.
 
 #include "render/integrator.h"
 
@@ -26,8 +27,11 @@ enum BlockPart : uint32_t { kOpacity, kSun, kDirection, kPick, kRoulette, kLamp,
 constexpr int kMostPassages = 24;
 /// Share of the open sky's light that stands for the bounces that are not traced.
 constexpr float kUntracedShare = 0.4f;
-/// How narrow the sun's highlight may be on what is not seen directly.
+/// How narrow the highlight of the sun or a lamp may be on what is not seen directly.
 constexpr float kLeastReflectedAlpha = 0.1f;
+/// Mirrors rougher than this spread what is brighter than white over many pixels, of which few
+/// paths meet it: there white is the most.
+constexpr float kBlurs = 0.15f;
 
 /// A path on its way.
 struct Walk {
@@ -37,6 +41,8 @@ struct Walk {
   /// Until a rough surface is met, light belongs to the part that is not smoothed.
   bool sharp = true;
   bool mirrored = false;
+  /// By a mirror in which no lamp is told from the light about it.
+  bool blurred = false;
   float travelled = 0;
   int passages = 0;
   /// Within water: how far one sees in it, and the light that it scatters; 0 outside.
@@ -122,6 +128,8 @@ class Tracing {
     target(w) += withoutFireflies(w.carried * sky, limit_ * 4);
   }
 
+  float white() const { return 1 / light_.exposure; }
+
   void fade(Walk& w, const Surface& surface, float distance) {
     const float clear = clearAlong(stage_, surface, distance);
     result.direct += w.carried * light_.horizon(w.ray.direction) * (1 - clear);
@@ -140,7 +148,8 @@ class Tracing {
   /// What shines. Surfaces ask for lamps, so a path that comes from one has had this light.
   void shine(const Walk& w, const Surface& surface) {
     if (!w.sharp || maxOf(surface.emissive) <= 0) return;
-    result.direct += w.carried * surface.emissive * light_.shownGlow;
+    const Vec3f shown = surface.emissive * light_.shownGlow;
+    result.direct += w.carried * (w.blurred ? withoutFireflies(shown, white()) : shown);
   }
 
   void gatherSun(const Walk& w, const Surface& surface, const Lobes& lobes, const Vec3f& view) {
@@ -155,8 +164,11 @@ class Tracing {
   void gatherLamp(const Walk& w, const Surface& surface, const Lobes& lobes, const Vec3f& view) {
     if (stage_.emitters.empty() || (brief_ && !w.mirrored)) return;
     const Vec3f lamp = lamplight(w, surface, lobes, view);
-    (w.mirrored && w.sharp ? result.direct : result.indirect) +=
-        withoutFireflies(w.carried * lamp, limit_);
+    // A mirror shows no more of a surface beside a lamp than the camera sees of it.
+    if (w.mirrored && w.sharp)
+      result.direct += w.carried * withoutFireflies(lamp, w.blurred ? white() : limit_);
+    else
+      result.indirect += withoutFireflies(w.carried * lamp, limit_);
   }
 
   Vec3f sunlight(const Walk& w, const Surface& surface, const Lobes& lobes, const Vec3f& view) {
@@ -185,11 +197,22 @@ class Tracing {
 
   Vec3f lamplight(const Walk& w, const Surface& surface, const Lobes& lobes, const Vec3f& view) {
     const LampRay lamp =
-        rayToLamp(stage_, surface, lobes, view, sampler_.number(w.dimension(kLamp)),
-                  sampler_.point(w.dimension(kLampPoint)));
+        rayToLamp(stage_, surface, forLamps(w, surface, lobes), view,
+                  sampler_.number(w.dimension(kLamp)), sampler_.point(w.dimension(kLampPoint)));
     if (maxOf(lamp.light) <= 0) return {};
     ++result.rays;
     return lamp.light * visibility(stage_, lamp.ray);
+  }
+
+  /// The lobes that lamps light. A mirror that the camera sees shows them itself: its path finds
+  /// them and has their light. What other paths meet has a wider lobe, as for the sun.
+  static Lobes forLamps(const Walk& w, const Surface& surface, const Lobes& lobes) {
+    Lobes lit = lobes;
+    if (!w.sharp)
+      lit.alpha = std::max(lobes.alpha, kLeastReflectedAlpha);
+    else if (surface.roughness < kMirror)
+      lit.coatChance = 0;
+    return lit;
   }
 
   /// Mirror and water part here: half of the light each its way.
@@ -267,6 +290,7 @@ class Tracing {
         Walk other = w;
         other.carried *= off.weight * lobes.coatChance;
         other.mirrored = true;
+        other.blurred = w.blurred || surface.roughness > kBlurs;
         ++other.depth;
         other.blocks += kMirroredBlocks;
         other.ray = startOf(surface, off.direction);
@@ -281,6 +305,7 @@ class Tracing {
     w.carried *= next.weight * share;
     if (next.coat && smooth) {
       w.mirrored = true;
+      w.blurred = w.blurred || surface.roughness > kBlurs;
     } else {
       if (brief_) return false;
       if (stage_.ambient) return lightBySky(w, surface, next.direction);

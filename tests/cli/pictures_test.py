@@ -39,6 +39,16 @@ class Pictures(Case):
         self.draw("a.png", "--turntable", "2", "--aov", "layers", status=USAGE, says="--aov")
         self.draw("a.png", "--sun", "40,135", "--sun-at", "48,2,2024-06-21,12", status=USAGE, says="--sun")
 
+    def testTheNumberOfPathsGoesByTheSize(self):
+        def drawn(size, *options):
+            self.run_gable("render", "x.cga", "--lot", "20x10", "--size", size, "--lighting", "direct", *options, "-o", "a.png")
+            return (self.folder / "a.png").read_bytes()
+
+        for size, paths in (("48x27", 48), ("1280x720", 24)):
+            usual = drawn(size)
+            self.assertEqual(usual, drawn(size, "--samples", str(paths)), size)
+            self.assertNotEqual(usual, drawn(size, "--samples", str(paths - 1)), size)
+
     def testSeveralSeedsHavePicturesOfTheirOwn(self):
         self.put("x.cga", "Lot --> extrude(rand(3, 9)) House.\n")
         self.draw("a.png", "--count", "2", "--seed", "9")
