@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// parallelFor() for work that counts: what the threads do counts for the meter of the caller, whose
-// limits end it.
+// Parallel loops for work that counts: what the threads do counts for the meter of the caller,
+// whose limits end it.
 #pragma once
 
 #include <cstddef>
@@ -13,15 +13,23 @@
 
 namespace gable {
 
-/// As parallelFor(). What a limit ends unwinds on the caller, once all workers stand.
+/// As TaskPool::run(). What a limit ends unwinds on the caller, once all workers stand.
 template <class Task>
-void parallelWork(size_t count, unsigned jobs, Task&& task) {
+void parallelWork(TaskPool& pool, size_t count, Task&& task) {
   WorkMeter* const meter = detail::workState.meter;
-  parallelFor(count, jobs, [&](size_t i, unsigned worker) {
+  pool.run(count, [&](size_t i, unsigned worker) {
     std::optional<WorkScope> scope;
     if (meter) scope.emplace(*meter);
     task(i, worker);
   });
+}
+
+/// The same with threads of its own, as parallelFor().
+template <class Task>
+void parallelWork(size_t count, unsigned jobs, Task&& task) {
+  const size_t wanted = jobs ? jobs : defaultJobs();
+  TaskPool pool(static_cast<unsigned>(wanted < count ? wanted : (count ? count : 1)));
+  parallelWork(pool, count, task);
 }
 
 }  // namespace gable

@@ -23,9 +23,10 @@
 namespace gable {
 namespace {
 
-// Of a block: as many leaves, or as many vertices and corners, and one leaf more.
-constexpr size_t kMostItems = 2048;
-constexpr uint64_t kMostNumbers = 1 << 15;
+// Of a block: as many leaves, or as many vertices and corners, and one leaf more. All blocks at
+// hand and their texts stay in the caches.
+constexpr size_t kMostItems = 256;
+constexpr uint64_t kMostNumbers = 1 << 13;
 // Blocks at a time, for each thread. More threads than that would wait for the file.
 constexpr size_t kBlocksAThread = 4;
 constexpr unsigned kMostThreads = 16;
@@ -47,7 +48,7 @@ class ObjWriter {
   ObjWriter(const Scene& scene, const std::string& path, const WriteOptions& options)
       : scene_(scene),
         plan_(scene),
-        jobs_(std::min(options.jobs ? options.jobs : defaultJobs(), kMostThreads)),
+        pool_(std::min(options.jobs ? options.jobs : defaultJobs(), kMostThreads)),
         path_(path),
         stem_(path.substr(0, path.size() - extensionOf(path).size() - 1)),
         out_(path),
@@ -65,7 +66,7 @@ class ObjWriter {
 
   const Scene& scene_;
   const ObjPlan plan_;
-  const unsigned jobs_;
+  TaskPool pool_;
   std::string path_, stem_;
   WriteReport report_;
   FileWriter out_;
@@ -171,7 +172,7 @@ void ObjWriter::writeTexts() {
 
 // The blocks at hand, while the file takes the text of those before.
 void ObjWriter::turnToText() {
-  parallelWork(blocks_.size() + 1, jobs_, [&](size_t i, unsigned thread) {
+  parallelWork(pool_, blocks_.size() + 1, [&](size_t i, unsigned thread) {
     if (i == 0) return writeTexts();
     Block& block = blocks_[i - 1];
     ObjLines& lines = lines_[thread];
@@ -191,8 +192,8 @@ void ObjWriter::turnToText() {
 }
 
 void ObjWriter::putLeaves() {
-  const size_t count = jobs_ > 1 ? jobs_ * kBlocksAThread : 1;
-  for (unsigned j = 0; j < jobs_; ++j) lines_.emplace_back(plan_);
+  const size_t count = pool_.jobs() > 1 ? pool_.jobs() * kBlocksAThread : 1;
+  for (unsigned j = 0; j < pool_.jobs(); ++j) lines_.emplace_back(plan_);
   blocks_.resize(count);
   texts_.resize(count);
   next_.resize(count);
