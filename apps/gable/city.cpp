@@ -6,6 +6,7 @@
 #include "city.h"
 
 #include <filesystem>
+#include <optional>
 
 #include "answer.h"
 #include "derive_settings.h"
@@ -180,11 +181,14 @@ int runCity(const CityArguments& given) {
   settings.soil = arguments.soil;
   if (const int status = readBox(arguments.box, settings)) return status;
   if (const int status = readCountry(arguments.country, settings)) return status;
-  const gable::City city = [&] {
+  // Who has stopped the work does not wait until a city is freed: it lasts until the process ends.
+  static std::optional<gable::City> held;
+  {
     const Progress progress("planning " + arguments.derive.shapes);
-    return gable::City::load(arguments.derive.shapes, settings,
-                             fileLimits(arguments.derive.limits));
-  }();
+    held =
+        gable::City::load(arguments.derive.shapes, settings, fileLimits(arguments.derive.limits));
+  }
+  const gable::City& city = *held;
   print(city.diagnostics());
   if (!city.found()) return kExitFile;
   if (!city.ok()) return statusOf(city.diagnostics(), kExitWrong);

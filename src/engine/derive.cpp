@@ -348,6 +348,11 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
     options.before = nullptr;
     impl->result = gable::derive(r.program, initial, own, options);
   }
+  if (impl->result.end == End::Cancelled) {
+    // Nobody reads what else there is to say.
+    disposeLater(std::move(initial));
+    return impl;
+  }
   impl->result.scene.geoOrigin = shapes.impl().geoOrigin;
   for (const ShapeFootprint& f : shapes.impl().footprints) {
     for (const Vec3& p : f.mesh.positions) impl->result.scene.place.include(f.origin.point(p));
