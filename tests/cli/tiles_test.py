@@ -187,9 +187,9 @@ class Tiles(Case):
         self.assertEqual(stats["tiles"], sum(p.suffix == ".glb" for p in self.files("out/tiles")))
         self.assertEqual(stats["bytes"], sum(len(b) for b in self.contents("out").values()))
         # Coarse ones about as many: those that would have more are coarser. Of the finest, those have half as many again
-        # that are small over what they show.
+        # that are small over what they show, or as many as a tree, which is not taken apart.
         for _, _, t in self.walk("out"):
-            self.assertLessEqual(t.stored() if t else 0, 3000)
+            self.assertLessEqual(t.stored() if t else 0, 3400)
 
     def testAViewerFindsTheBuildings(self):
         self.city("map.geojson", "-o", "out/", "--tile-triangles", "2000")
