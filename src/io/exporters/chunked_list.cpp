@@ -10,12 +10,13 @@
 #include <algorithm>
 #include <cstring>
 #include <deque>
+#include <optional>
 #include <span>
 #include <unordered_map>
 
 #include "base/hash.h"
 #include "base/json.h"
-#include "base/parallel_work.h"
+#include "base/parallel.h"
 #include "base/work.h"
 #include "geom/mesh/untagged_hash.h"
 #include "io/exporters/draw_batches.h"
@@ -231,7 +232,10 @@ class Writing {
     }
     const size_t count = std::max<size_t>(1, std::min<size_t>(jobs_, ranges.size()));
     for (size_t i = 0; i < count; ++i) writers_.emplace_back(plan_);
-    parallelWork(count, jobs_, [&](size_t i, unsigned) {
+    WorkMeter* const meter = detail::workState.meter;
+    parallelFor(count, jobs_, [&](size_t i, unsigned) {
+      std::optional<WorkScope> scope;
+      if (meter) scope.emplace(*meter);
       const size_t from = ranges.size() * i / count, to = ranges.size() * (i + 1) / count;
       writers_[i].write(std::span(ranges).subspan(from, to - from));
     });

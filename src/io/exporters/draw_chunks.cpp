@@ -8,9 +8,10 @@
 #include "io/exporters/draw_chunks.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "base/hash.h"
-#include "base/parallel_work.h"
+#include "base/parallel.h"
 #include "base/work.h"
 #include "geom/mesh/untagged_hash.h"
 #include "scene/scene.h"
@@ -83,7 +84,10 @@ class Cutter {
   // Calls task(i) for each i under count, several threads a run of them each.
   template <class Task>
   void forEach(size_t count, Task&& task) {
-    parallelWork((count + kItemsATask - 1) / kItemsATask, jobs_, [&](size_t part, unsigned) {
+    WorkMeter* const meter = detail::workState.meter;
+    parallelFor((count + kItemsATask - 1) / kItemsATask, jobs_, [&](size_t part, unsigned) {
+      std::optional<WorkScope> scope;
+      if (meter) scope.emplace(*meter);
       const size_t end = std::min(count, (part + 1) * kItemsATask);
       work(kItemsATask);
       for (size_t i = part * kItemsATask; i < end; ++i) task(i);

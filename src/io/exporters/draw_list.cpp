@@ -11,10 +11,11 @@
 #include <algorithm>
 #include <deque>
 #include <map>
+#include <optional>
 #include <string_view>
 
 #include "base/json.h"
-#include "base/parallel_work.h"
+#include "base/parallel.h"
 #include "base/work.h"
 #include "io/exporters/draw_batches.h"
 
@@ -142,7 +143,10 @@ std::string drawList(const Scene& scene, unsigned jobs) {
   const uint64_t count = jobs ? jobs : std::min<uint64_t>(defaultJobs(), most);
   std::deque<BatchBuilder> parts;
   for (uint64_t i = 0; i < count; ++i) parts.emplace_back(plan);
-  parallelWork(parts.size(), static_cast<unsigned>(count), [&](size_t i, unsigned) {
+  WorkMeter* const meter = detail::workState.meter;
+  parallelFor(parts.size(), static_cast<unsigned>(count), [&](size_t i, unsigned) {
+    std::optional<WorkScope> scope;
+    if (meter) scope.emplace(*meter);
     const LeafRange range{all * i / count, all * (i + 1) / count};
     forEachLeafIn(plan, {&range, 1},
                   [&](const Leaf& leaf, const Frame& world, uint64_t number, size_t) {
