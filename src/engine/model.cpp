@@ -153,7 +153,9 @@ WriteResult written(const Model::Impl& impl, const std::string& path,
   options.bakedUv = settings.bakedUv;
   options.textureSize = settings.textureSize;
   options.geo = impl.geo.get();
-  if (impl.from) options.jobs = static_cast<unsigned>(impl.from->settings.jobs.value_or(0));
+  if (impl.from) {
+    options.jobs = static_cast<unsigned>(std::max(0, impl.from->settings.jobs.value_or(0)));
+  }
   options.attributesOf = [&impl](size_t root) { return knownOfRoot(impl, root); };
   std::optional<CityLabels> labels;
   options.labelsOf = [&](size_t root) {

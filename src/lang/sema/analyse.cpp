@@ -208,10 +208,12 @@ void Analysis::infer() {
   mute_ = true;
   walked_.clear();
   for (int i = 0; i < kRounds; ++i) {
-    const size_t attributes = program_.attributes.size();
+    const size_t attributes = program_.attributes.size(), functions = program_.functions.size();
     round(false);
-    // What a rule has added to the attributes was behind those that were walked.
-    if (!changed_ && program_.attributes.size() == attributes) break;
+    // What a rule has added to these was behind those that were walked.
+    const bool same =
+        program_.attributes.size() == attributes && program_.functions.size() == functions;
+    if (!changed_ && same) break;
   }
   mute_ = false;
   round(true);
