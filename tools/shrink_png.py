@@ -4,7 +4,7 @@
 """Makes a PNG small enough for the repository: tools/shrink_png.py FROM TO [BYTES].
 
 The picture gets a palette (median cut, Heckbert 1982, then k-means, Lloyd 1982): 256 colours, and where that leaves it larger than
-BYTES (400000), fewer colours, then fewer pixels. Reads 8-bit RGB and RGBA without interlacing, which is what
+BYTES (400000), fewer colours, then fewer pixels. A pattern hides the steps of a sky. Reads 8-bit RGB and RGBA without interlacing, which is what
 Gable writes; alpha is dropped.
 """
 import struct
@@ -16,6 +16,10 @@ SIGNATURE = b"\x89PNG\r\n\x1a\n"
 LIMIT = 400_000
 # Of k-means; more of them are not seen.
 ROUNDS = 4
+# Neighbours that differ by so few levels are a smooth place.
+SMOOTH = 2
+# By row and column, levels.
+DITHER = [(-3, 1, -2, 2), (3, -1, 2, -1), (-2, 2, -3, 1), (2, 0, 3, -1)]
 # Tried in this order: colours of the palette, and the share of the pixels along each side.
 STEPS = [(256, 1.0), (192, 1.0), (128, 1.0), (256, 0.75), (128, 0.75), (128, 0.5), (64, 0.5)]
 
@@ -144,12 +148,31 @@ def palette_of(counts, colors):
     return palette, nearest(counts, palette)
 
 
+def dithered(rows, exact):
+    """The rows with a pattern on smooth places that hides the steps of a palette there (ordered dither, Bayer 1973). What the
+    palette has as it is, `exact`, stays."""
+    result, above = [], rows[0]
+    for y, row in enumerate(rows):
+        line, left = [], row[0]
+        pattern = DITHER[y % len(DITHER)]
+        for x, (color, over) in enumerate(zip(row, above)):
+            smooth = all(abs(a - b) <= SMOOTH and abs(a - c) <= SMOOTH for a, b, c in zip(color, left, over))
+            by = pattern[x % len(pattern)] if smooth and color not in exact else 0
+            line.append(tuple(min(255, max(0, v + by)) for v in color) if by else color)
+            left = color
+        result.append(line)
+        above = row
+    return result
+
+
 def encode(width, height, rows, colors):
     counts = {}
     for row in rows:
         for color in row:
             counts[color] = counts.get(color, 0) + 1
     palette, index = palette_of(counts, colors)
+    rows = dithered(rows, set(palette))
+    index.update(nearest({color for row in rows for color in row}.difference(index), palette))
     raw = b"".join(b"\0" + bytes(index[c] for c in row) for row in rows)
 
     def chunk(kind, body):

@@ -136,6 +136,15 @@ class ShrinkTest(FolderCase):
         color = raw[1 * 5 + 1 + 3] * 3
         self.assertEqual(tuple(palette[color:color + 3]), (30, 20, 7))
 
+    def testHidesTheStepsOfSmoothPlaces(self):
+        # A ramp of 200 levels with 20 colours has 19 steps in a row without a pattern.
+        path = self.write("a.png", 200, 8, lambda x, y: (x, x, x))
+        width, height, rows = shrink_png.read(path)
+        parts = dict(shrink_png.chunks(shrink_png.encode(width, height, rows, 20)))
+        raw = zlib.decompress(parts[b"IDAT"])
+        steps = [sum(raw[y * 201 + x] != raw[y * 201 + x + 1] for x in range(1, 200)) for y in range(8)]
+        self.assertGreater(min(steps), 30)
+
     def testUndoesFilters(self):
         # Filter 1 holds differences to the pixel before: a ramp is a row of ones.
         path = self.write("a.png", 5, 1, lambda x, y: (1, 2, 3), filtered=1)
