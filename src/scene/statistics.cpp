@@ -42,15 +42,17 @@ Tally tallyOf(const Mesh& m) {
   return t;
 }
 
+// Around the corners of the box, as they are placed.
 Box3 placed(const Box3& box, const Vec3& scale, const Frame& frame) {
-  Box3 out;
-  if (box.empty()) return out;
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 corner{i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y,
-                      i & 4 ? box.max.z : box.min.z};
-    out.include(frame.point(scaled(corner, scale)));
-  }
-  return out;
+  if (box.empty()) return box;
+  const Vec3 middle = frame.point(scaled((box.min + box.max) * 0.5, scale));
+  const Vec3 half = scaled((box.max - box.min) * 0.5, scale);
+  const auto along = [&](double Vec3::*axis) {
+    return std::fabs(frame.x.*axis * half.x) + std::fabs(frame.y.*axis * half.y) +
+           std::fabs(frame.z.*axis * half.z);
+  };
+  const Vec3 reach{along(&Vec3::x), along(&Vec3::y), along(&Vec3::z)};
+  return {middle - reach, middle + reach};
 }
 
 // Larger by more than the rounding of one placement.
@@ -71,13 +73,47 @@ bool within(const Box3& inner, const Box3& outer) {
           inner.max.x <= outer.max.x && inner.max.y <= outer.max.y && inner.max.z <= outer.max.z);
 }
 
+/// A mesh or a prototype: what is in it, and a box around it in its own frame, that of a prototype
+/// with room for rounding.
+struct Part {
+  Tally tally;
+  Box3 box;
+};
+
+struct Parts {
+  std::vector<Part> meshes, prototypes;
+};
+
+// Leaves and instances are most of a scene, so they are gone through once.
+Part partOf(const Scene& scene, const Prototype& p, const Parts& known) {
+  Part out;
+  for (uint32_t i = 0; i < p.leafCount; ++i) {
+    const Leaf& l = scene.leaves[p.firstLeaf + i];
+    const Part& mesh = known.meshes[l.mesh];
+    out.tally.add(mesh.tally);
+    out.box.include(widened(placed(mesh.box, l.scale, l.frame)));
+  }
+  for (uint32_t i = 0; i < p.instanceCount; ++i) {
+    const Instance& in = scene.instances[p.firstInstance + i];
+    const Part& inner = known.prototypes[in.prototype];
+    out.tally.add(inner.tally);
+    out.box.include(widened(placed(inner.box, {1, 1, 1}, in.frame)));
+  }
+  return out;
+}
+
+Parts partsOf(const Scene& scene) {
+  Parts out;
+  out.meshes.reserve(scene.meshes.size());
+  out.prototypes.reserve(scene.prototypes.size());
+  for (const MeshRef& m : scene.meshes) out.meshes.push_back({tallyOf(*m), m->bounds()});
+  for (const Prototype& p : scene.prototypes) out.prototypes.push_back(partOf(scene, p, out));
+  return out;
+}
+
 class Bounds {
  public:
-  explicit Bounds(const Scene& scene) : scene_(scene) {
-    for (const MeshRef& m : scene.meshes) meshes_.push_back(m->bounds());
-    prototypes_.reserve(scene.prototypes.size());
-    for (const Prototype& p : scene.prototypes) prototypes_.push_back(ownBox(p));
-  }
+  Bounds(const Scene& scene, const Parts& parts) : scene_(scene), parts_(parts) {}
 
   Box3 take() {
     for (const Root& r : scene_.roots) grow(r.instance.prototype, r.instance.frame);
@@ -85,20 +121,6 @@ class Bounds {
   }
 
  private:
-  // Contains the prototype in its own frame, with room for rounding.
-  Box3 ownBox(const Prototype& p) const {
-    Box3 box;
-    for (uint32_t i = 0; i < p.leafCount; ++i) {
-      const Leaf& l = scene_.leaves[p.firstLeaf + i];
-      box.include(widened(placed(meshes_[l.mesh], l.scale, l.frame)));
-    }
-    for (uint32_t i = 0; i < p.instanceCount; ++i) {
-      const Instance& in = scene_.instances[p.firstInstance + i];
-      box.include(widened(placed(prototypes_[in.prototype], {1, 1, 1}, in.frame)));
-    }
-    return box;
-  }
-
   void grow(uint32_t prototype, const Frame& world) {
     const auto leaf = [&](uint32_t l, const Frame& around, size_t) {
       grow(scene_.leaves[l], around);
@@ -110,7 +132,7 @@ class Bounds {
   }
 
   bool couldGrow(uint32_t prototype, const Frame& world) {
-    const Box3 box = widened(placed(prototypes_[prototype], {1, 1, 1}, world));
+    const Box3 box = widened(placed(parts_.prototypes[prototype].box, {1, 1, 1}, world));
     if (within(box, found_)) return false;
     if (visits_++ < kMaxVisits) return true;
     found_.include(box);
@@ -119,7 +141,7 @@ class Bounds {
 
   void grow(const Leaf& leaf, const Frame& around) {
     const Frame world = around * leaf.frame;
-    if (within(widened(placed(meshes_[leaf.mesh], leaf.scale, world)), found_)) return;
+    if (within(widened(placed(parts_.meshes[leaf.mesh].box, leaf.scale, world)), found_)) return;
     for (const Vec3& p : scene_.meshes[leaf.mesh]->positions) {
       found_.include(world.point(scaled(p, leaf.scale)));
     }
@@ -130,29 +152,19 @@ class Bounds {
   static constexpr uint64_t kMaxVisits = 20'000'000;
 
   const Scene& scene_;
+  const Parts& parts_;
   uint64_t visits_ = 0;
-  std::vector<Box3> meshes_, prototypes_;
   Box3 found_;
 };
 
 }  // namespace
 
 SceneCounts count(const Scene& scene) {
-  std::vector<Tally> meshes, prototypes;
-  prototypes.reserve(scene.prototypes.size());
-  for (const MeshRef& m : scene.meshes) meshes.push_back(tallyOf(*m));
-  for (const Prototype& p : scene.prototypes) {
-    Tally t;
-    for (uint32_t i = 0; i < p.leafCount; ++i) t.add(meshes[scene.leaves[p.firstLeaf + i].mesh]);
-    for (uint32_t i = 0; i < p.instanceCount; ++i) {
-      t.add(prototypes[scene.instances[p.firstInstance + i].prototype]);
-    }
-    prototypes.push_back(t);
-  }
+  const Parts parts = partsOf(scene);
   Tally all;
   SceneCounts counts;
   for (const Root& r : scene.roots) {
-    all.add(prototypes[r.instance.prototype]);
+    all.add(parts.prototypes[r.instance.prototype].tally);
     counts.shapes = saturatingAdd(counts.shapes, scene.prototypes[r.instance.prototype].shapes);
   }
   counts.leaves = all.leaves;
@@ -163,7 +175,7 @@ SceneCounts count(const Scene& scene) {
   counts.instances = scene.instances.size();
   counts.prototypes = scene.prototypes.size();
   counts.materials = scene.materials.size();
-  counts.bounds = Bounds(scene).take();
+  counts.bounds = Bounds(scene, parts).take();
   return counts;
 }
 
