@@ -40,6 +40,10 @@ void KeyNumbers::emplace(const ShareKey& key, uint32_t number) {
   ++size_;
 }
 
+void KeyNumbers::prefetch(const ShareKey& key) const {
+  if (!entries_.empty()) __builtin_prefetch(&entries_[key.a & (entries_.size() - 1)], 1);
+}
+
 void KeyNumbers::reserve(size_t count) {
   if (entriesFor(count) > entries_.size()) rehash(entriesFor(count));
 }

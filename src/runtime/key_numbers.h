@@ -21,10 +21,16 @@ struct ShareKey {
 
 class KeyNumbers {
  public:
+  /// So many keys ahead, who goes through many asks for the memory of each: prefetch().
+  static constexpr uint32_t kAhead = 16;
+
   /// Null where the key is unknown. Good until the next change.
   const uint32_t* find(const ShareKey& key) const;
   /// A key that is known keeps its number.
   void emplace(const ShareKey& key, uint32_t number);
+  /// Asks the processor for the memory where the key is or belongs, so that a look-up or an emplace
+  /// of it a little later need not wait.
+  void prefetch(const ShareKey& key) const;
   void reserve(size_t count);
   /// Keeps the memory.
   void clear();

@@ -63,6 +63,11 @@ class Merger {
   /// What the scene's numbers stand for.
   void explain(Recall& recall) {
     leaves_.explain(recall);
+    const auto keyOf = [&](size_t i) { return recall.prototypes[taken_[i]].key; };
+    for (size_t i = 0; i < taken_.size(); ++i) {
+      if (i + KeyNumbers::kAhead < taken_.size()) byKey_.prefetch(keyOf(i + KeyNumbers::kAhead));
+      byKey_.emplace(keyOf(i), taken_[i]);
+    }
     recall.prototypeNumbers = std::move(byKey_);
   }
 
@@ -373,7 +378,11 @@ class Merger {
     const auto number = static_cast<uint32_t>(scene_.prototypes.size() - 1);
     workers_[worker].prototypes[prototype] = number;
     const ShareKey key = keyOf(worker, prototype);
-    if (isShared(key)) byKey_.emplace(key, number);
+    if (!isShared(key)) return;
+    if (worker == before_ && input_.recall)
+      taken_.push_back(number);
+    else
+      byKey_.emplace(key, number);
   }
 
   bool full() const { return events_ > input_.mostEvents || eventBytes_ > input_.mostEventBytes; }
@@ -454,6 +463,9 @@ class Merger {
   std::vector<size_t> reportsEnd_;
   Scene scene_;
   KeyNumbers byKey_;
+  /// Of the scene, those from the scene before whose keys byKey_ lacks until explain(): nobody
+  /// looks for them here.
+  std::vector<uint32_t> taken_;
   LeafMerger leaves_;
 };
 

@@ -51,9 +51,14 @@ RecallInput recallInput(const DeriveResult* before, const Program& program,
   const auto hasAttributes = [](const auto& notes) { return notes.attributes != 0; };
   out.bare.restart(static_cast<size_t>(
       std::count_if(recall.prototypes.begin(), recall.prototypes.end(), hasAttributes)));
-  for (uint32_t p = 0; p < recall.prototypes.size(); ++p) {
+  const auto keyOf = [&](uint32_t p) {
     const Recall::PrototypeNotes& notes = recall.prototypes[p];
-    if (notes.attributes) out.bare.emplace(withoutAttributes(notes.key, notes.attributes), p);
+    return withoutAttributes(notes.key, notes.attributes);
+  };
+  for (uint32_t p = 0; p < recall.prototypes.size(); ++p) {
+    const uint32_t later = p + KeyNumbers::kAhead;
+    if (later < recall.prototypes.size()) out.bare.prefetch(keyOf(later));
+    if (hasAttributes(recall.prototypes[p])) out.bare.emplace(keyOf(p), p);
   }
   return out;
 }
