@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The Gable authors
-"""What a keystroke costs the server of the studio: live.py GABLE [SCENE...] [--keys N] [--json FILE].
+"""What a keystroke costs the server of the studio: live.py GABLE [SCENE...] [--keys N] [--pause SECONDS] [--json FILE].
 
 Starts `gable studio` on a copy of the examples and asks for models as its page does, each with another number in one
 rule. Prints for each scene, over the keystrokes after the first model: seconds until the whole answer is there, seconds
-of the processor that the server took, of it deriving, the bytes of the answer, and the share of shapes that was taken
-over from the model before. On a busy machine the seconds of the processor count. Run from the repository's root.
+of the processor that the server took until then, of it deriving, the bytes of the answer, and the share of shapes that was taken
+over from the model before. Each comes a second after the answer before, as a person sees one before typing on; --pause
+0 has them at once. On a busy machine the seconds of the processor count. Run from the repository's root.
 """
 import argparse
 import http.client
@@ -89,7 +90,7 @@ def request_of(scene, folder, number):
             "attributes": {}} | scene["ask"]
 
 
-def measured(gable, scene, keys):
+def measured(gable, scene, keys, pause):
     """Of each keystroke: seconds, seconds of the processor, seconds of deriving, bytes, share taken over."""
     rows = []
     with tempfile.TemporaryDirectory() as place:
@@ -107,6 +108,7 @@ def measured(gable, scene, keys):
                 stats = head["stats"]
                 rows.append({"seconds": seconds, "cpu": studio.cpu() - busy, "derive": stats["seconds"]["derive"], "bytes": size,
                              "kept": stats.get("recalled", 0) / max(1, stats["shapes"])})
+                time.sleep(pause)
         finally:
             studio.stop()
     return rows
@@ -117,6 +119,7 @@ def main():
     parser.add_argument("gable")
     parser.add_argument("scenes", nargs="*", metavar="SCENE", help=" ".join(SCENES))
     parser.add_argument("--keys", type=int, default=5)
+    parser.add_argument("--pause", type=float, default=1, metavar="SECONDS")
     parser.add_argument("--json", type=Path)
     options = parser.parse_args()
     unknown = set(options.scenes) - set(SCENES)
@@ -124,7 +127,7 @@ def main():
         parser.error(f"there is no scene '{min(unknown)}'; there are {', '.join(SCENES)}")
     told = {}
     for name in options.scenes or SCENES:
-        first, *rows = measured(options.gable, SCENES[name], options.keys)
+        first, *rows = measured(options.gable, SCENES[name], options.keys, options.pause)
         middle = {key: statistics.median(r[key] for r in rows) for key in first}
         told[name] = {"first": first, "median": middle, "worst": max(r["seconds"] for r in rows)}
         print(f"{name:10} first {first['seconds']:6.2f} s; a keystroke {middle['seconds']:6.3f} s (worst {told[name]['worst']:.3f}), "

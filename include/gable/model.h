@@ -246,8 +246,9 @@ struct DrawnChunks;
 
 /// A model for a graphics card, as what has changed since the one before.
 struct DrawUpdate {
-  /// An update, or a draw list where the model is small; empty where a limit ends it.
-  std::string bytes;
+  /// An update, or a draw list where the model is small, in pieces one behind the other; empty
+  /// where a limit ends it.
+  std::vector<std::string> bytes;
   /// Who applies the update holds this then; null for a draw list.
   std::shared_ptr<const DrawnChunks> drawn;
 };
@@ -291,8 +292,15 @@ class Model {
   /// The model for a graphics card: batches of instances and of merged triangles; the bytes are
   /// described in docs/dev/studio-protocol.md. Empty where a limit ends it.
   std::string drawList(const FileLimits& limits = {}) const;
-  /// The same for a viewer that holds `before`, which may be null.
-  DrawUpdate drawUpdate(const DrawnChunks* before, const FileLimits& limits = {}) const;
+  /// The same for a viewer that holds `before`, which may be null. `room`: the pieces of an update
+  /// that nobody needs any more; their memory is used again.
+  DrawUpdate drawUpdate(const DrawnChunks* before, const FileLimits& limits = {},
+                        std::vector<std::string> room = {}) const;
+  /// Readies memory for one derivation that goes on from this model, so that it need not wait for
+  /// pages that the system clears: as many bytes as the model takes. For who has nothing else to
+  /// do meanwhile; any thread. Nothing where the model was not remembered
+  /// (DeriveSettings::remember).
+  void prepareNext() const;
   /// The bytes of a texture by the path that a material names.
   std::optional<std::string> texture(const std::string& path) const;
   /// By extension: .glb .gltf .obj .usda .usdz .ply .stl .city.json .city.jsonl .ifc, and .png for

@@ -19,6 +19,9 @@ constexpr char lowerCase(char c) { return c >= 'A' && c <= 'Z' ? static_cast<cha
 /// The text with its letters of ASCII in lower case.
 std::string lowerCase(std::string_view text);
 
+/// All pieces, one behind the other.
+std::string joined(const std::vector<std::string>& pieces);
+
 /// The same text, but for the case of letters of ASCII.
 bool equalButForCase(std::string_view a, std::string_view b);
 

@@ -405,12 +405,22 @@ std::string Model::drawList(const FileLimits& limits) const {
   });
 }
 
-DrawUpdate Model::drawUpdate(const DrawnChunks* before, const FileLimits& limits) const {
+DrawUpdate Model::drawUpdate(const DrawnChunks* before, const FileLimits& limits,
+                             std::vector<std::string> room) const {
   return guardedValue<DrawUpdate>([&] {
     Task task("showing the model", {}, limits);
     const WorkScope scope(task.allowance());
-    ChunkedList list = chunkedList(impl_->scene(), before);
+    ChunkedList list = chunkedList(impl_->scene(), before, 0, std::move(room));
     return DrawUpdate{std::move(list.bytes), std::move(list.drawn)};
+  });
+}
+
+void Model::prepareNext() const {
+  if (!impl_->result.recall || !impl_->rules) return;
+  if (impl_->result.recall->tables != impl_->rules->tables.get()) return;
+  guardedValue<bool>([&] {
+    impl_->rules->tables->spare.prepare(impl_->result);
+    return true;
   });
 }
 

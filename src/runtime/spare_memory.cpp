@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "base/memory.h"
 #include "runtime/derive.h"
 
 namespace gable {
@@ -23,6 +24,14 @@ void keepLarger(Block& kept, Block& other) {
   if (bytesOf(other) > bytesOf(kept)) std::swap(kept, other);
 }
 
+// A list with pages for so many, and some more.
+template <class T>
+std::vector<T> ready(size_t count) {
+  std::vector<T> out = withRoom(std::vector<T>(), count);
+  populate(out.data(), (count + count / 64) * sizeof(T));
+  return out;
+}
+
 }  // namespace
 
 // What is not kept is freed when the lock is open again.
@@ -35,6 +44,32 @@ void SpareMemory::keep(SpareBlocks blocks) {
   keepLarger(blocks_.prototypeNumbers, blocks.prototypeNumbers);
   keepLarger(blocks_.bare, blocks.bare);
   if (!blocks.workers.empty()) std::swap(blocks_.workers, blocks.workers);
+}
+
+void SpareMemory::prepare(const DeriveResult& result) {
+  const Scene& scene = result.scene;
+  const auto lacks = [&](auto SpareBlocks::*block, size_t count) {
+    const std::lock_guard lock(mutex_);
+    return (blocks_.*block).capacity() < count;
+  };
+  SpareBlocks made;
+  const auto make = [&]<class T>(std::vector<T> SpareBlocks::*block, size_t count) {
+    if (lacks(block, count)) made.*block = ready<T>(count);
+  };
+  make(&SpareBlocks::leaves, scene.leaves.size());
+  make(&SpareBlocks::instances, scene.instances.size());
+  make(&SpareBlocks::prototypes, scene.prototypes.size());
+  make(&SpareBlocks::notes, scene.prototypes.size());
+  const auto makeNumbers = [&](KeyNumbers SpareBlocks::*block) {
+    {
+      const std::lock_guard lock(mutex_);
+      if ((blocks_.*block).bytes() > 0) return;
+    }
+    (made.*block).restart(scene.prototypes.size());
+  };
+  makeNumbers(&SpareBlocks::prototypeNumbers);
+  makeNumbers(&SpareBlocks::bare);
+  keep(std::move(made));
 }
 
 SpareBlocks SpareMemory::take() {

@@ -35,6 +35,8 @@ class SpareMemory {
  public:
   /// Of each block the larger one is kept, and the other freed; of workers the newer ones.
   void keep(SpareBlocks blocks);
+  /// Blocks for a result like this one, where there are none that large: their pages are there.
+  void prepare(const DeriveResult& result);
   SpareBlocks take();
 
  private:

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "runtime/derive.h"
+
 namespace gable {
 namespace {
 
@@ -34,6 +36,23 @@ TEST(SpareMemory, aListHasRoomForALittleMoreTheNextTime) {
   std::vector<Leaf> spare = withRoom(std::vector<Leaf>(), 1000);
   const Leaf* const place = spare.data();
   EXPECT_EQ(withRoom(std::move(spare), 1100).data(), place);
+}
+
+TEST(SpareMemory, isReadyForAResultLikeTheOneBefore) {
+  DeriveResult result;
+  result.scene.leaves.resize(5000);
+  result.scene.instances.resize(300);
+  result.scene.prototypes.resize(200);
+  SpareMemory memory;
+  memory.keep({.leaves = roomFor(6000)});
+  memory.prepare(result);
+  const SpareBlocks blocks = memory.take();
+  EXPECT_EQ(blocks.leaves.capacity(), 6000u) << "what is there is large enough";
+  EXPECT_GE(blocks.instances.capacity(), 300u);
+  EXPECT_GE(blocks.prototypes.capacity(), 200u);
+  EXPECT_GE(blocks.notes.capacity(), 200u);
+  EXPECT_GT(blocks.prototypeNumbers.bytes(), 0u);
+  EXPECT_GT(blocks.bare.bytes(), 0u);
 }
 
 TEST(SpareMemory, givesBackWhatIsTooSmallOrMuchTooLarge) {

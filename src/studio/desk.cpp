@@ -4,6 +4,7 @@
 #include <atomic>
 #include <memory>
 
+#include "base/text.h"
 #include "gable/studio.h"
 #include "studio/router.h"
 
@@ -28,6 +29,7 @@ StudioAnswer StudioDesk::answer(StudioRequest request) {
   asked.cancelled = std::make_shared<std::atomic<bool>>(false);
   studio::HttpResponse told = studio::answered(
       [this](const studio::HttpRequest& r) { return impl_->router.answer(r); }, asked);
+  told.body += joined(told.rest);
   return {told.status, std::move(told.type), std::move(told.body), std::move(told.headers)};
 }
 

@@ -14,6 +14,7 @@
 #include <boost/asio/thread_pool.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -50,6 +51,31 @@ bool parseTarget(const std::string& target, HttpRequest& out) {
   }
   return true;
 }
+
+/// A body in pieces, for Beast.
+struct PiecesBody {
+  using value_type = std::vector<std::string>;
+  static uint64_t size(const value_type& pieces) {
+    return std::accumulate(pieces.begin(), pieces.end(), uint64_t{0},
+                           [](uint64_t sum, const std::string& p) { return sum + p.size(); });
+  }
+  class writer {
+   public:
+    using const_buffers_type = std::vector<asio::const_buffer>;
+    template <bool isRequest, class Fields>
+    writer(const http::header<isRequest, Fields>&, const value_type& pieces) : pieces_(pieces) {}
+    void init(Code& error) { error = {}; }
+    boost::optional<std::pair<const_buffers_type, bool>> get(Code& error) {
+      error = {};
+      const_buffers_type all;
+      for (const std::string& p : pieces_) all.push_back(asio::buffer(p));
+      return {{std::move(all), false}};
+    }
+
+   private:
+    const value_type& pieces_;
+  };
+};
 
 HttpResponse plain(int status, const char* text) { return {status, "text/plain", text, {}}; }
 
@@ -202,7 +228,9 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
     const auto answer =
         std::make_shared<HttpResponse>(answered(self->server_.handler, self->request_));
     asio::io_context& io = self->server_.io;
+    const std::function<void()> after = std::move(answer->after);
     asio::post(io, [self = std::move(self), answer] { self->onAnswer(std::move(*answer)); });
+    if (after) after();
   }
 
   // While a request is at work, a readable socket without bytes is a client that has gone.
@@ -238,26 +266,30 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
     // Of a request that was not read to its end nothing more can be understood.
     const bool keep = keep_ && answered_;
     answered_ = false;
-    auto out = std::make_shared<http::response<http::string_body>>();
+    auto out = std::make_shared<http::response<PiecesBody>>();
     out->version(11);
     out->result(static_cast<unsigned>(answer.status));
     out->set(http::field::content_type, answer.type);
     out->set("X-Content-Type-Options", "nosniff");
     for (const auto& [name, value] : answer.headers) out->set(name, value);
     out->keep_alive(keep);
-    out->body() = std::move(answer.body);
+    out->body() = std::move(answer.rest);
+    out->body().insert(out->body().begin(), std::move(answer.body));
     if (request_.method == "HEAD") {
-      out->content_length(out->body().size());
+      out->content_length(PiecesBody::size(out->body()));
       out->body().clear();
     } else {
       out->prepare_payload();
     }
     stream_.expires_after(milliseconds(server_.settings.writeSeconds));
-    http::async_write(stream_, *out, [self = shared_from_this(), out, keep](Code error, size_t) {
+    const auto ended = [self = shared_from_this(), out, keep, sent = std::move(answer.sent)](
+                           Code error, size_t) {
+      if (sent) sent(std::move(out->body()));
       if (!error && keep) return self->read();
       Code ignored;
       self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
-    });
+    };
+    http::async_write(stream_, *out, ended);
   }
 
   Impl& server_;

@@ -35,6 +35,12 @@ struct HttpResponse {
   std::string type = "application/json";
   std::string body;
   std::vector<std::pair<std::string, std::string>> headers;
+  /// Of the body, behind `body`: what is large comes in pieces and stays where it is.
+  std::vector<std::string> rest = {};
+  /// Gets `rest` back when it has been sent; may be empty.
+  std::function<void(std::vector<std::string>)> sent = {};
+  /// Called once the answer is on its way, by who made it; may be empty.
+  std::function<void()> after = {};
 };
 
 /// What the handler answers. What it throws would end the program, and is told instead.

@@ -219,8 +219,14 @@ HttpResponse Router::derived(const HttpRequest& r, bool tree) {
   if (!plainPath(request.value()["file"].text())) {
     return failed({"path-outside", "'file' names no file of the project", ""});
   }
-  return bytesOf(tree ? session_.tree(request.value(), r.cancelled)
-                      : session_.derive(request.value(), r.cancelled));
+  if (tree) return bytesOf(session_.tree(request.value(), r.cancelled));
+  Result<Session::Answer> made = session_.derive(request.value(), r.cancelled);
+  if (!made.ok()) return failed(made.error());
+  HttpResponse out = bytesOf(std::move(made->head));
+  out.rest = std::move(made->list);
+  out.sent = [this](std::vector<std::string> pieces) { session_.reuse(std::move(pieces)); };
+  out.after = [this, asked = request.value()] { session_.prepareNext(asked); };
+  return out;
 }
 
 HttpResponse Router::progress(const HttpRequest& r) const {

@@ -26,6 +26,8 @@ constexpr size_t kRulesKept = 4, kShapesKept = 4, kModelsKept = 4, kModelsOfAll 
 /// Of all models together, unless one alone has more. A town has one and a half million, and takes
 /// half a gigabyte.
 constexpr uint64_t kLeavesKept = 4'000'000;
+/// Of answers that have been sent: that of a town has 200 MB, and one for a key there 50.
+constexpr size_t kMostRoom = 256 << 20;
 constexpr double kMostSeconds = 600, kUsualSeconds = 20;
 /// Of reading and analysing files, which nobody waits for longer.
 const FileLimits kFileLimits{20.0, uint64_t{2} << 30};
@@ -40,14 +42,12 @@ void keep(std::deque<Kept>& kept, Kept one, size_t most) {
   if (kept.size() > most) kept.pop_back();
 }
 
-// A draw list has room for what comes in front of it.
-std::string joined(const char* mark, std::string json, std::string rest) {
+std::string headOf(const char* mark, std::string json) {
   json.append((4 - json.size() % 4) % 4, ' ');
   const auto size = static_cast<uint32_t>(json.size());
   std::string head = mark;
   head.append(reinterpret_cast<const char*>(&size), sizeof size);
-  rest.insert(0, head + json);
-  return rest;
+  return head + json;
 }
 
 DeriveSettings settingsOf(const JsonValue& request) {
@@ -286,7 +286,7 @@ Result<Model> Session::deriveFor(const JsonValue& request, const Rules& rules, W
   return gable::derive(rules, *shapes.value(), settings);
 }
 
-Result<std::string> Session::derive(const JsonValue& request, const Cancel& cancel) {
+Result<Session::Answer> Session::derive(const JsonValue& request, const Cancel& cancel) {
   const std::shared_ptr<Work> work = begin(request, cancel);
   const std::shared_ptr<const Rules> rules = rulesOf(request);
   std::string text;
@@ -297,7 +297,7 @@ Result<std::string> Session::derive(const JsonValue& request, const Cancel& canc
   if (!rules->ok() || request["only"].text() == "check") {
     json.key("end").value(rules->ok() ? "checked" : "wrong");
     json.key("diagnostics").raw(diagnosticsJson(diagnostics)).endObject();
-    return joined("GBS1", text, {});
+    return Answer{headOf("GBS1", text), {}};
   }
   const std::shared_ptr<const DrawnChunks> held = drawnOf(request["known"]);
   const Result<Model> derived = deriveFor(request, *rules, *work, Trace::None);
@@ -320,21 +320,22 @@ Result<std::string> Session::derive(const JsonValue& request, const Cancel& canc
   RunFigures figures;
   figures.parseSeconds = rules->parseSeconds();
   figures.deriveSeconds = model.deriveSeconds();
-  std::string stats, list;
+  std::string stats;
+  std::vector<std::string> list;
   parallelFor(drawn ? 2 : 1, 2, [&](size_t i, unsigned) {
     if (i == 0) {
       stats = statisticsJson(model, figures);
     } else if (request.find("known")) {
-      DrawUpdate update = model.drawUpdate(held.get());
+      DrawUpdate update = model.drawUpdate(held.get(), {}, takeRoom());
       keepDrawn(number, std::move(update.drawn));
       list = std::move(update.bytes);
     } else {
-      list = model.drawList();
+      list.push_back(model.drawList());
     }
   });
   if (held) json.key("base").value(request["known"].number(0));
   json.key("stats").raw(stats).endObject();
-  return joined("GBS1", text, std::move(list));
+  return Answer{headOf("GBS1", text), std::move(list)};
 }
 
 Result<std::string> Session::tree(const JsonValue& request, const Cancel& cancel) {
@@ -342,7 +343,7 @@ Result<std::string> Session::tree(const JsonValue& request, const Cancel& cancel
   const std::shared_ptr<const Rules> rules = rulesOf(request);
   // A page that asks while somebody types need not hear of a failure.
   if (!rules->ok()) {
-    return joined("GBT1", R"({"count":0,"end":"wrong","names":[],"files":[]})", {});
+    return headOf("GBT1", R"({"count":0,"end":"wrong","names":[],"files":[]})");
   }
   const bool steps = request["steps"].boolean(false);
   Result<Model> derived = deriveFor(request, *rules, *work, steps ? Trace::Steps : Trace::Tree);
@@ -358,7 +359,25 @@ Result<std::string> Session::tree(const JsonValue& request, const Cancel& cancel
   json.endArray();
   if (steps) writeNotes(json, trace);
   json.endObject();
-  return joined("GBT1", text, traceBytes(trace) + (steps ? derived->drawList() : std::string()));
+  return headOf("GBT1", text) + traceBytes(trace) + (steps ? derived->drawList() : std::string());
+}
+
+void Session::reuse(std::vector<std::string> pieces) {
+  size_t bytes = 0;
+  for (const std::string& piece : pieces) bytes += piece.size();
+  if (bytes > kMostRoom) return;
+  const std::lock_guard lock(mutex_);
+  room_ = std::move(pieces);
+}
+
+std::vector<std::string> Session::takeRoom() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(room_, {});
+}
+
+void Session::prepareNext(const JsonValue& request) const {
+  const std::optional<Model> model = lastOf(request["page"].text());
+  if (model) model->prepareNext();
 }
 
 std::optional<Model> Session::made(uint64_t number) const {

@@ -35,8 +35,17 @@ class Session {
   /// A request for derive() or tree() has come, which may have to wait: the one before of the same
   /// page ends now.
   void announce(const JsonValue& request, const Cancel& cancel);
-  /// The answer to /api/derive: "GBS1", JSON, draw list.
-  Result<std::string> derive(const JsonValue& request, const Cancel& cancel);
+  /// The answer to /api/derive: "GBS1", JSON; then the draw list in pieces.
+  struct Answer {
+    std::string head;
+    std::vector<std::string> list;
+  };
+  Result<Answer> derive(const JsonValue& request, const Cancel& cancel);
+  /// The pieces of an answer that has been sent: the next one has their memory.
+  void reuse(std::vector<std::string> pieces);
+  /// Readies memory for the next derivation of the page that has asked; when its answer is on its
+  /// way.
+  void prepareNext(const JsonValue& request) const;
   /// The answer to /api/tree: "GBT1", JSON, nodes; with "steps" the draw list of all steps' shapes.
   Result<std::string> tree(const JsonValue& request, const Cancel& cancel);
   /// JSON of a leaf by its number in the draw list.
@@ -78,6 +87,7 @@ class Session {
   void keepDrawn(uint64_t number, std::shared_ptr<const DrawnChunks> drawn);
   /// The model that was derived last for a page.
   std::optional<Model> lastOf(const std::string& page) const;
+  std::vector<std::string> takeRoom();
   std::shared_ptr<Work> begin(const JsonValue& request, const Cancel& cancel);
   Result<Model> deriveFor(const JsonValue& request, const Rules& rules, Work& work, Trace trace);
 
@@ -89,6 +99,7 @@ class Session {
   std::deque<Made> made_;
   std::map<std::string, std::shared_ptr<Work>> works_;
   uint64_t last_;
+  std::vector<std::string> room_;
 };
 
 }  // namespace gable::studio

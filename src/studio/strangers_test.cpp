@@ -7,6 +7,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <thread>
 
 #include "base/json.h"
@@ -150,6 +151,34 @@ TEST(Answers, whatAHandlerThrowsIsToldAsADiagnostic) {
     EXPECT_FALSE(told.value()["hint"].text().empty());
     close(s);
   }
+  stop = true;
+  thread.join();
+}
+
+TEST(Answers, largeOnesComeInPiecesThatAreGivenBack) {
+  std::atomic<bool> stop{false};
+  std::promise<std::vector<std::string>> back;
+  std::promise<void> after;
+  HttpServer server(
+      {}, [](const HttpRequest&) { return HttpResponse{}; },
+      [&](const HttpRequest&) {
+        HttpResponse out{200, "text/plain", "head ", {}};
+        out.rest = {std::string(1 << 20, 'a'), "", "end"};
+        out.sent = [&](std::vector<std::string> pieces) { back.set_value(std::move(pieces)); };
+        out.after = [&] { after.set_value(); };
+        return out;
+      });
+  const int port = server.listen().value();
+  std::thread thread([&] { server.run(stop); });
+  const int s = connectTo(port);
+  send(s, "GET / HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n");
+  const std::string answer = receive(s);
+  EXPECT_NE(answer.find("Content-Length: 1048584\r\n"), std::string::npos);
+  EXPECT_EQ(answer.substr(answer.find("\r\n\r\n") + 4),
+            "head " + std::string(1 << 20, 'a') + "end");
+  EXPECT_EQ(back.get_future().get().size(), 4u);
+  after.get_future().get();
+  close(s);
   stop = true;
   thread.join();
 }

@@ -435,7 +435,7 @@ TEST_F(Folder, importsComeFromUnsavedText) {
         overlay + "}}";
     const auto request = parseJson(json);
     std::string out =
-        session.derive(request.value(), std::make_shared<std::atomic<bool>>(false)).value();
+        session.derive(request.value(), std::make_shared<std::atomic<bool>>(false)).value().head;
     std::erase_if(out, [](char c) { return c == ' ' || c == '\n'; });
     return out;
   };
@@ -456,7 +456,7 @@ TEST_F(Folder, anEditTakesOverWhatItLeavesAsItWas) {
     const auto request = parseJson(R"({"page": ")" + page + R"(", "file": "rules/a.cga", )" +
                                    R"("shapes": {"lot": [60, 20]}, "text": ")" + rules + "\"}");
     EXPECT_TRUE(request.ok());
-    return session.derive(request.value(), std::make_shared<std::atomic<bool>>(false)).value();
+    return session.derive(request.value(), std::make_shared<std::atomic<bool>>(false)).value().head;
   };
   const auto recalled = [](const std::string& answer) {
     return answer.find("\"recalled\"") != std::string::npos;

@@ -7,6 +7,7 @@
 
 #include <string>
 
+#include "base/text.h"
 #include "engine/impl.h"
 #include "gable/gable.h"
 
@@ -101,19 +102,21 @@ Other --> tag("edge7", edges) tag("hut39") X.
   const Shapes lot = Shapes::lot(140, 140);
   DeriveSettings settings;
   settings.jobs = 1;
-  const std::string expected = derive(rulesOf(text), lot, settings).drawUpdate(nullptr).bytes;
+  const std::string expected =
+      joined(derive(rulesOf(text), lot, settings).drawUpdate(nullptr).bytes);
   EXPECT_EQ(expected.substr(0, 4), "GBU2");
   for (const int jobs : {2, 3, 8}) {
     settings.jobs = jobs;
     const Rules rules = rulesOf(text);
-    EXPECT_TRUE(dividedOf(rules, lot, settings).drawUpdate(nullptr).bytes == expected) << jobs;
+    EXPECT_TRUE(joined(dividedOf(rules, lot, settings).drawUpdate(nullptr).bytes) == expected)
+        << jobs;
   }
   // The tables of the rules know other tags first.
   const Rules rules = rulesOf(text);
   settings.startRule = "Other";
   derive(rules, Shapes::lot(1, 1), settings);
   settings.startRule.reset();
-  EXPECT_TRUE(derive(rules, lot, settings).drawUpdate(nullptr).bytes == expected);
+  EXPECT_TRUE(joined(derive(rules, lot, settings).drawUpdate(nullptr).bytes) == expected);
 }
 
 TEST(Divided, partsAreTakenOverByTheNextDerivation) {

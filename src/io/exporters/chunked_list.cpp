@@ -55,7 +55,10 @@ uint64_t nameOf(const DrawPlan& plan, const BatchKey& key) {
 /// The bytes of some chunks, one behind the other.
 class ChunkWriter {
  public:
-  explicit ChunkWriter(const DrawPlan& plan) : plan_(plan), builder_(plan) {}
+  ChunkWriter(const DrawPlan& plan, std::string room)
+      : plan_(plan), builder_(plan), bytes_(std::move(room)) {
+    bytes_.clear();
+  }
 
   void write(std::span<const LeafRange> ranges) {
     uint64_t leaves = 0;
@@ -166,14 +169,16 @@ class ChunkWriter {
 
 class Writing {
  public:
-  Writing(const DrawPlan& plan, const DrawnChunks& before, unsigned jobs)
+  Writing(const DrawPlan& plan, const DrawnChunks& before, unsigned jobs,
+          std::vector<std::string> room)
       : plan_(plan), before_(before), jobs_(jobs), chunks_(chunksOf(plan, jobs)) {
     findKept();
-    encode();
+    encode(std::move(room));
     number();
   }
 
-  std::string bytes() {
+  // What all chunks have in common, and the new ones of each writer.
+  std::vector<std::string> bytes() {
     std::string arrays, text;
     JsonWriter json(text);
     json.beginObject().key("leaves").value(plan_.leaves());
@@ -194,17 +199,14 @@ class Writing {
     json.value(static_cast<uint64_t>(arrays.size())).value(static_cast<uint64_t>(chunks_.size()));
     json.endArray().endObject();
     text.append((4 - text.size() % 4) % 4, ' ');
-    size_t size = 0;
-    for (ChunkWriter& writer : writers_) size += writer.bytes().size();
-    std::string out;
-    out.reserve(8 + text.size() + arrays.size() + chunks_.size() * 8 + size + kRoomInFront);
-    out = "GBU2";
-    append(out, static_cast<uint32_t>(text.size()));
-    out += text;
-    out += arrays;
-    append(out, kept_);
-    for (const DrawChunk& chunk : chunks_) append(out, chunk.leaves);
-    for (ChunkWriter& writer : writers_) out += writer.bytes();
+    std::string head = "GBU2";
+    append(head, static_cast<uint32_t>(text.size()));
+    head += text;
+    head += arrays;
+    append(head, kept_);
+    for (const DrawChunk& chunk : chunks_) append(head, chunk.leaves);
+    std::vector<std::string> out{std::move(head)};
+    for (ChunkWriter& writer : writers_) out.push_back(std::move(writer.bytes()));
     return out;
   }
 
@@ -222,7 +224,7 @@ class Writing {
     }
   }
 
-  void encode() {
+  void encode(std::vector<std::string> room) {
     std::vector<LeafRange> ranges;
     uint64_t leaves = 0;
     for (size_t i = 0; i < chunks_.size(); ++i) {
@@ -231,7 +233,11 @@ class Writing {
       if (kept_[i] == kNew) ranges.push_back({from, leaves});
     }
     const size_t count = std::max<size_t>(1, std::min<size_t>(jobs_, ranges.size()));
-    for (size_t i = 0; i < count; ++i) writers_.emplace_back(plan_);
+    // The large ones are those of writers.
+    std::sort(room.begin(), room.end(),
+              [](const auto& a, const auto& b) { return a.capacity() > b.capacity(); });
+    room.resize(count);
+    for (std::string& piece : room) writers_.emplace_back(plan_, std::move(piece));
     WorkMeter* const meter = detail::workState.meter;
     parallelFor(count, jobs_, [&](size_t i, unsigned) {
       std::optional<WorkScope> scope;
@@ -323,13 +329,14 @@ class Writing {
 
 }  // namespace
 
-ChunkedList chunkedList(const Scene& scene, const DrawnChunks* before, unsigned jobs) {
+ChunkedList chunkedList(const Scene& scene, const DrawnChunks* before, unsigned jobs,
+                        std::vector<std::string> room) {
   const DrawPlan plan(scene);
   if (plan.truncated() || plan.leaves() < kLeavesWorthChunks)
-    return {drawList(scene, jobs), nullptr};
+    return {{drawList(scene, jobs)}, nullptr};
   static const DrawnChunks kNone;
-  Writing writing(plan, before ? *before : kNone, jobs ? jobs : defaultJobs());
-  std::string bytes = writing.bytes();
+  Writing writing(plan, before ? *before : kNone, jobs ? jobs : defaultJobs(), std::move(room));
+  std::vector<std::string> bytes = writing.bytes();
   return {std::move(bytes), writing.drawn()};
 }
 

@@ -39,12 +39,15 @@ struct DrawnChunks {
 };
 
 struct ChunkedList {
-  std::string bytes;
+  /// In pieces, one behind the other.
+  std::vector<std::string> bytes;
   /// Null where the bytes are a draw list, since chunks are not worth it.
   std::shared_ptr<const DrawnChunks> drawn;
 };
 
-/// `before` may be null: all chunks are sent then. `jobs` as in drawList().
-ChunkedList chunkedList(const Scene& scene, const DrawnChunks* before, unsigned jobs = 0);
+/// `before` may be null: all chunks are sent then. `jobs` as in drawList(). `room`: pieces that
+/// nobody needs any more; their memory is used again.
+ChunkedList chunkedList(const Scene& scene, const DrawnChunks* before, unsigned jobs = 0,
+                        std::vector<std::string> room = {});
 
 }  // namespace gable

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/json.h"
+#include "base/text.h"
 #include "io/testing/scenes.h"
 
 namespace gable {
@@ -164,19 +165,19 @@ TEST(ChunkedList, smallScenesAreSentWhole) {
   b.leaf(kUnitBox, Frame{}, {1, 1, 1});
   b.root("lot", b.prototype("lot"), {});
   const ChunkedList list = chunkedList(b.scene, nullptr);
-  EXPECT_EQ(list.bytes.substr(0, 4), "GBL1");
+  EXPECT_EQ(joined(list.bytes).substr(0, 4), "GBL1");
   EXPECT_EQ(list.drawn, nullptr);
 }
 
 TEST(ChunkedList, whatIsKnownIsNotSentAgain) {
   const Scene scene = street();
   const ChunkedList first = chunkedList(scene, nullptr);
-  const Head all = headOf(first.bytes);
+  const Head all = headOf(joined(first.bytes));
   EXPECT_GT(all.kept.size(), 20u);
   EXPECT_EQ(all.news(), all.kept.size());
   const ChunkedList again = chunkedList(street(), first.drawn.get());
-  EXPECT_EQ(headOf(again.bytes).news(), 0u);
-  EXPECT_LT(again.bytes.size() * 50, first.bytes.size());
+  EXPECT_EQ(headOf(joined(again.bytes)).news(), 0u);
+  EXPECT_LT(joined(again.bytes).size() * 50, joined(first.bytes).size());
   EXPECT_EQ(again.drawn->keys, first.drawn->keys);
   EXPECT_EQ(again.drawn->used, first.drawn->used);
 }
@@ -184,14 +185,14 @@ TEST(ChunkedList, whatIsKnownIsNotSentAgain) {
 TEST(ChunkedList, anEditSendsTheChunksAroundIt) {
   const ChunkedList first = chunkedList(street(), nullptr);
   const ChunkedList changed = chunkedList(street(9000), first.drawn.get());
-  EXPECT_GE(headOf(changed.bytes).news(), 1u);
-  EXPECT_LE(headOf(changed.bytes).news(), 2u);
+  EXPECT_GE(headOf(joined(changed.bytes)).news(), 1u);
+  EXPECT_LE(headOf(joined(changed.bytes)).news(), 2u);
   const ChunkedList shorter = chunkedList(street(9000, 12000), changed.drawn.get());
-  EXPECT_GE(headOf(shorter.bytes).news(), 1u);
-  EXPECT_LE(headOf(shorter.bytes).news(), 3u);
+  EXPECT_GE(headOf(joined(shorter.bytes)).news(), 1u);
+  EXPECT_LE(headOf(joined(shorter.bytes)).news(), 3u);
   // Undone: the list before is not the one at the beginning.
   const ChunkedList undone = chunkedList(street(), shorter.drawn.get());
-  EXPECT_LE(headOf(undone.bytes).news(), 4u);
+  EXPECT_LE(headOf(joined(undone.bytes)).news(), 4u);
   EXPECT_EQ(undone.drawn->keys, first.drawn->keys);
 }
 
@@ -215,10 +216,10 @@ TEST(ChunkedList, aSeriesOfEditsLeavesWhatAFreshModelGives) {
        {std::pair{-1, -1}, {9000, -1}, {9000, 12000}, {3, 12000}, {23999, 7}, {-1, 0}, {-1, -1}}) {
     const Scene scene = street(changed, left);
     const ChunkedList update = chunkedList(scene, held.get());
-    page.apply(update.bytes);
+    page.apply(joined(update.bytes));
     held = update.drawn;
     Page fresh;
-    fresh.apply(chunkedList(scene, nullptr).bytes);
+    fresh.apply(joined(chunkedList(scene, nullptr).bytes));
     EXPECT_GT(fresh.chunks.size(), 20u);
     EXPECT_TRUE(page == fresh) << changed << ' ' << left;
   }
@@ -227,11 +228,21 @@ TEST(ChunkedList, aSeriesOfEditsLeavesWhatAFreshModelGives) {
 TEST(ChunkedList, theBytesAreTheSameForAnyNumberOfJobs) {
   const ChunkedList first = chunkedList(street(), nullptr, 1);
   for (const unsigned jobs : {2u, 3u, 7u}) {
-    EXPECT_EQ(chunkedList(street(), nullptr, jobs).bytes, first.bytes) << jobs;
-    EXPECT_EQ(chunkedList(street(99), first.drawn.get(), jobs).bytes,
-              chunkedList(street(99), first.drawn.get(), 1).bytes)
+    EXPECT_EQ(joined(chunkedList(street(), nullptr, jobs).bytes), joined(first.bytes)) << jobs;
+    EXPECT_EQ(joined(chunkedList(street(99), first.drawn.get(), jobs).bytes),
+              joined(chunkedList(street(99), first.drawn.get(), 1).bytes))
         << jobs;
   }
+}
+
+TEST(ChunkedList, thePiecesOfAnotherAreUsedAgain) {
+  const std::string expected = joined(chunkedList(street(), nullptr, 2).bytes);
+  std::vector<std::string> room{"small", std::string(64 << 20, 'x')};
+  const char* const large = room[1].data();
+  const ChunkedList again = chunkedList(street(), nullptr, 2, std::move(room));
+  EXPECT_EQ(joined(again.bytes), expected);
+  EXPECT_TRUE(std::any_of(again.bytes.begin(), again.bytes.end(),
+                          [&](const std::string& piece) { return piece.data() == large; }));
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ class Joiner {
     text.append((4 - text.size() % 4) % 4, ' ');
     const auto size = static_cast<uint32_t>(text.size());
     std::string out;
-    out.reserve(text.size() + arrayBytes_ + kRoomInFront);
+    out.reserve(8 + text.size() + arrayBytes_);
     out = "GBL1";
     out.append(reinterpret_cast<const char*>(&size), sizeof size);
     out += text;

@@ -24,13 +24,8 @@ namespace gable {
 
 constexpr uint64_t kMostLeaves = 1u << 22;
 
-/// Bytes of room behind a list, for a head that is put in front without another copy. The rules of
-/// a town have a megabyte of names, annotations and values in it. What is never touched is free.
-constexpr size_t kRoomInFront = 1 << 23;
-
 /// Linear in the flattened leaves; leaves beyond kMostLeaves are left out and the JSON says so.
-/// `jobs`: threads, 0 for as many as are worth it; the bytes are the same for any number, with
-/// kRoomInFront behind them.
+/// `jobs`: threads, 0 for as many as are worth it; the bytes are the same for any number.
 std::string drawList(const Scene& scene, unsigned jobs = 0);
 
 }  // namespace gable
