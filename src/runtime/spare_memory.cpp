@@ -24,10 +24,11 @@ void keepLarger(Block& kept, Block& other) {
   if (bytesOf(other) > bytesOf(kept)) std::swap(kept, other);
 }
 
-// A list with pages for so many, and some more.
+// A list with pages for so many, and some more. merge() asks for room for all that there may be,
+// which is up to twice as much, and fills less; what nobody touches costs nothing.
 template <class T>
 std::vector<T> ready(size_t count) {
-  std::vector<T> out = withRoom(std::vector<T>(), count);
+  std::vector<T> out = withRoom(std::vector<T>(), 2 * count);
   populate(out.data(), (count + count / 64) * sizeof(T));
   return out;
 }
@@ -65,7 +66,7 @@ void SpareMemory::prepare(const DeriveResult& result) {
       const std::lock_guard lock(mutex_);
       if ((blocks_.*block).bytes() > 0) return;
     }
-    (made.*block).restart(scene.prototypes.size());
+    (made.*block).restart(2 * scene.prototypes.size());
   };
   makeNumbers(&SpareBlocks::prototypeNumbers);
   makeNumbers(&SpareBlocks::bare);
