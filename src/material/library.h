@@ -23,6 +23,8 @@ enum class SurfaceKind : uint8_t {
   Stones,
   /// Ridges that part and meet along v, furrows between them: bark.
   Furrows,
+  /// Patches over one another, each with a rim of its own: bark that sheds.
+  Flakes,
   /// Mineral ground or coat: plaster, concrete, asphalt, sand, paint.
   Grain,
   /// Boards beside one another along v.

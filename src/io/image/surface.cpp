@@ -24,6 +24,7 @@ surface::Draw drawOf(SurfaceKind kind) {
     case SurfaceKind::Masonry: return surface::drawMasonry;
     case SurfaceKind::Stones: return surface::drawStones;
     case SurfaceKind::Furrows: return surface::drawFurrows;
+    case SurfaceKind::Flakes: return surface::drawFlakes;
     case SurfaceKind::Grain: return surface::drawGrain;
     case SurfaceKind::Boards: return surface::drawBoards;
     case SurfaceKind::LappedBoards: return surface::drawLappedBoards;

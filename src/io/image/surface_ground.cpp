@@ -94,6 +94,23 @@ SurfaceTexel drawFurrows(const LibraryMaterial& m, double u, double v) {
   return t;
 }
 
+// The bark below, patches of the second colour on it, and over both the oldest flakes. Rims follow
+// clouds at a height, so they are ragged and nowhere straight.
+SurfaceTexel drawFlakes(const LibraryMaterial& m, double u, double v) {
+  const uint64_t seed = seedOf(m);
+  const double young = clouds(u, v, m.columns, m.rows, 5, seed);
+  const double old = clouds(u, v, m.columns + 2, m.rows + 1, 5, seed + 11);
+  const double fine = clouds(u, v, 70, 50, 4, seed + 23);
+  const double patch = ramp(0.49, 0.515, young), flake = ramp(0.545, 0.57, old);
+  SurfaceTexel t;
+  const Vec3 tone = mix(rgb(m.color), rgb(m.second), m.variety * patch);
+  t.color = mix(tone, rgb(m.between), m.variety * flake) * (1 + m.grain * (fine - 0.5));
+  // A flake is thickest at its rim, where it comes off.
+  t.height = m.relief * (patch * (1.6 - young) + flake * (1.6 - old)) + m.grainHeight * fine;
+  t.roughness = m.roughness;
+  return t;
+}
+
 SurfaceTexel drawGrain(const LibraryMaterial& m, double u, double v) {
   const uint64_t seed = seedOf(m);
   const double fine = clouds(u, v, m.columns / 2, m.rows / 2, 2, seed);

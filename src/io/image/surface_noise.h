@@ -65,6 +65,7 @@ using Draw = SurfaceTexel (*)(const LibraryMaterial& m, double u, double v);
 SurfaceTexel drawMasonry(const LibraryMaterial& m, double u, double v);
 SurfaceTexel drawStones(const LibraryMaterial& m, double u, double v);
 SurfaceTexel drawFurrows(const LibraryMaterial& m, double u, double v);
+SurfaceTexel drawFlakes(const LibraryMaterial& m, double u, double v);
 SurfaceTexel drawGrain(const LibraryMaterial& m, double u, double v);
 SurfaceTexel drawBoards(const LibraryMaterial& m, double u, double v);
 SurfaceTexel drawLappedBoards(const LibraryMaterial& m, double u, double v);
