@@ -225,7 +225,7 @@ HttpResponse Router::derived(const HttpRequest& r, bool tree) {
   HttpResponse out = bytesOf(std::move(made->head));
   out.rest = std::move(made->list);
   out.sent = [this](std::vector<std::string> pieces) { session_.reuse(std::move(pieces)); };
-  out.after = [this, asked = request.value()] { session_.prepareNext(asked); };
+  out.after = [this, page = request.value()["page"].text()] { session_.prepareNext(page); };
   return out;
 }
 

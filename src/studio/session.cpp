@@ -365,7 +365,8 @@ Result<std::string> Session::tree(const JsonValue& request, const Cancel& cancel
 void Session::reuse(std::vector<std::string> pieces) {
   size_t bytes = 0;
   for (const std::string& piece : pieces) bytes += piece.size();
-  if (bytes > kMostRoom) return;
+  // The head alone: a check, or rules that are wrong.
+  if (pieces.size() < 2 || bytes > kMostRoom) return;
   const std::lock_guard lock(mutex_);
   room_ = std::move(pieces);
 }
@@ -375,9 +376,10 @@ std::vector<std::string> Session::takeRoom() {
   return std::exchange(room_, {});
 }
 
-void Session::prepareNext(const JsonValue& request) const {
-  const std::optional<Model> model = lastOf(request["page"].text());
-  if (model) model->prepareNext();
+void Session::prepareNext(const std::string& page) const {
+  const std::optional<Model> model = lastOf(page);
+  // Two models are kept beside what is made ready.
+  if (model && model->leafCount() <= kLeavesKept / 2) model->prepareNext();
 }
 
 std::optional<Model> Session::made(uint64_t number) const {

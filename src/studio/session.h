@@ -43,9 +43,9 @@ class Session {
   Result<Answer> derive(const JsonValue& request, const Cancel& cancel);
   /// The pieces of an answer that has been sent: the next one has their memory.
   void reuse(std::vector<std::string> pieces);
-  /// Readies memory for the next derivation of the page that has asked; when its answer is on its
-  /// way.
-  void prepareNext(const JsonValue& request) const;
+  /// Readies memory for the next derivation of a page, when its answer is on its way. Large models
+  /// have none.
+  void prepareNext(const std::string& page) const;
   /// The answer to /api/tree: "GBT1", JSON, nodes; with "steps" the draw list of all steps' shapes.
   Result<std::string> tree(const JsonValue& request, const Cancel& cancel);
   /// JSON of a leaf by its number in the draw list.
