@@ -48,6 +48,8 @@ void KeyNumbers::reserve(size_t count) {
   if (entriesFor(count) > entries_.size()) rehash(entriesFor(count));
 }
 
+bool KeyNumbers::hasRoom(size_t count) const { return entries_.size() >= entriesFor(count); }
+
 void KeyNumbers::clear() {
   std::fill(entries_.begin(), entries_.end(), Entry{});
   size_ = 0;

@@ -32,6 +32,8 @@ class KeyNumbers {
   /// of it a little later need not wait.
   void prefetch(const ShareKey& key) const;
   void reserve(size_t count);
+  /// Whether so many find room without more memory.
+  bool hasRoom(size_t count) const;
   /// Keeps the memory.
   void clear();
   /// Forgets all and has room for so many. Keeps the memory, unless it is too little or many times

@@ -24,11 +24,14 @@ void keepLarger(Block& kept, Block& other) {
   if (bytesOf(other) > bytesOf(kept)) std::swap(kept, other);
 }
 
-// A list with pages for so many, and some more. merge() asks for room for all that there may be,
-// which is up to twice as much, and fills less; what nobody touches costs nothing.
+// merge() asks for room for all that there may be, which is up to twice what there is then; what
+// nobody touches costs nothing.
+constexpr size_t kTimesAsked = 2;
+
+// A list with pages for so many, and some more.
 template <class T>
 std::vector<T> ready(size_t count) {
-  std::vector<T> out = withRoom(std::vector<T>(), 2 * count);
+  std::vector<T> out = withRoom(std::vector<T>(), kTimesAsked * count);
   populate(out.data(), (count + count / 64) * sizeof(T));
   return out;
 }
@@ -47,29 +50,27 @@ void SpareMemory::keep(SpareBlocks blocks) {
   if (!blocks.workers.empty()) std::swap(blocks_.workers, blocks.workers);
 }
 
+bool SpareMemory::has(const std::function<bool(const SpareBlocks&)>& what) {
+  const std::lock_guard lock(mutex_);
+  return what(blocks_);
+}
+
 void SpareMemory::prepare(const DeriveResult& result) {
   const Scene& scene = result.scene;
-  const auto lacks = [&](auto SpareBlocks::*block, size_t count) {
-    const std::lock_guard lock(mutex_);
-    return (blocks_.*block).capacity() < count;
-  };
   SpareBlocks made;
   const auto make = [&]<class T>(std::vector<T> SpareBlocks::*block, size_t count) {
-    if (lacks(block, count)) made.*block = ready<T>(count);
+    if (!has([&](const SpareBlocks& b) { return (b.*block).capacity() >= kTimesAsked * count; }))
+      made.*block = ready<T>(count);
   };
   make(&SpareBlocks::leaves, scene.leaves.size());
   make(&SpareBlocks::instances, scene.instances.size());
   make(&SpareBlocks::prototypes, scene.prototypes.size());
   make(&SpareBlocks::notes, scene.prototypes.size());
-  const auto makeNumbers = [&](KeyNumbers SpareBlocks::*block) {
-    {
-      const std::lock_guard lock(mutex_);
-      if ((blocks_.*block).bytes() > 0) return;
-    }
-    (made.*block).restart(2 * scene.prototypes.size());
-  };
-  makeNumbers(&SpareBlocks::prototypeNumbers);
-  makeNumbers(&SpareBlocks::bare);
+  const size_t keys = kTimesAsked * scene.prototypes.size();
+  for (const auto numbers : {&SpareBlocks::prototypeNumbers, &SpareBlocks::bare}) {
+    if (!has([&](const SpareBlocks& b) { return (b.*numbers).hasRoom(keys); }))
+      (made.*numbers).restart(keys);
+  }
   keep(std::move(made));
 }
 

@@ -8,6 +8,7 @@
 // Any thread may call. It holds the blocks of one derivation at most.
 #pragma once
 
+#include <functional>
 #include <mutex>
 #include <vector>
 
@@ -40,6 +41,8 @@ class SpareMemory {
   SpareBlocks take();
 
  private:
+  bool has(const std::function<bool(const SpareBlocks&)>& what);
+
   std::mutex mutex_;
   SpareBlocks blocks_;
 };
