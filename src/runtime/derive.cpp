@@ -519,20 +519,32 @@ void tellRooms(const Pass& pass, const RoomPlan& rooms, const DeriveShared& shar
       "ask for room first, and inside of its block for overlaps, touches and the like");
 }
 
+// The keys of rules, of the scene before and of who has room.
+void prepareRecall(DeriveShared& shared, const Way& way, const std::vector<InitialShape>& shapes) {
+  const auto task = [&](size_t i, unsigned) {
+    if (i == 0) {
+      shared.reach = reachOf(shared.program);
+    } else if (i == 1) {
+      shared.before = recallInput(shared.options.before, shared.program, shared.environment,
+                                  std::move(shared.spare.bare));
+    } else {
+      shared.roomKey = roomKey(shared.program, shapes, shared.options);
+    }
+  };
+  // Threads are worth it where there is a scene to look into.
+  parallelFor(way.asksForRoom ? 3 : 2, shared.options.before ? way.jobs : 1, task);
+}
+
 // What the workers made together; null where it is not what one alone would have made.
 std::unique_ptr<DeriveResult> deriveIn(Way way, const Program& program,
                                        const std::vector<InitialShape>& shapes,
                                        Environment& environment, const DeriveOptions& options,
                                        Usage& usage) {
   DeriveShared shared(program, options, environment, usage);
-  if (options.remember) {
-    shared.reach = reachOf(program);
-    shared.before = recallInput(options.before, program, environment, std::move(shared.spare.bare));
-  }
+  if (options.remember) prepareRecall(shared, way, shapes);
   FirstPass known;
   bool tookRooms = false;
   if (options.remember && way.asksForRoom) {
-    shared.roomKey = roomKey(program, shapes, options);
     const Recall* const before = way.takesRooms ? shared.before.recall : nullptr;
     tookRooms = before && before->rooms && shared.roomKey == before->roomsKey;
     if (tookRooms) known.rooms = before->rooms;
