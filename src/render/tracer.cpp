@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// The one file that knows Embree. Structures are built by one thread: with several, the order of
-// primitives in a leaf, and so which of two coinciding faces wins, would change from run to run.
+// The one file that knows Embree. How many threads build its structures depends on the world alone:
+// their number may change the order of primitives in a leaf, and so which of two coinciding faces
+// wins. Which thread does what changes nothing.
 
 #include "render/tracer.h"
 
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <iterator>
 #include <limits>
+#include <string>
+#include <thread>
 #include <vector>
 
 #include "base/work.h"
@@ -184,6 +188,26 @@ void countFace(const RTCFilterFunctionNArguments* args) {
   winding.left += dot(hit.normal, winding.direction) > 0 ? 1 : -1;
 }
 
+/// How many threads build the structures of large worlds. The thread sanitizer knows nothing of
+/// what Embree's own threads tell each other.
+#if defined(__SANITIZE_THREAD__)
+constexpr int kBuilders = 1;
+#elif defined(__has_feature)
+constexpr int kBuilders = __has_feature(thread_sanitizer) ? 1 : 4;
+#else
+constexpr int kBuilders = 4;
+#endif
+/// In fewer triangles there is a tenth of a second to be had at most: not worth threads of its own,
+/// where many small pictures are drawn at a time.
+constexpr uint64_t kLargeWorld = 250'000;
+
+RTCDevice makeDevice(const World& world) {
+  uint64_t triangles = 0;
+  for (const Part& part : world.parts) triangles += part.triangles();
+  const int threads = triangles < kLargeWorld ? 1 : kBuilders;
+  return rtcNewDevice(("set_affinity=0,threads=" + std::to_string(threads)).c_str());
+}
+
 RTCGeometry makeGeometry(RTCDevice device, const TriangleSet& set) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   // Embree reads 16 bytes at the last vertex; sets carry one vertex more than they use.
@@ -204,12 +228,13 @@ struct Tracer::Impl {
   std::vector<RTCScene> scenes;
   std::vector<ClearGeometry> clears;
 
-  /// Of the thread that builds.
+  /// Of the thread that asks for the build, which alone asks it.
   WorkMeter* const meter = detail::workState.meter;
-  bool stopped = false;
+  const std::thread::id builder = std::this_thread::get_id();
+  std::atomic<bool> stopped = false;
 
   // What the build has made until it is left is released by the destructor.
-  explicit Impl(const World& w) : Impl(w, rtcNewDevice("threads=1,set_affinity=0")) { build(); }
+  explicit Impl(const World& w) : Impl(w, makeDevice(w)) { build(); }
   Impl(const World& w, RTCDevice d) : world(w), device(d), clears(w.parts.size()) {}
 
   void build() {
@@ -234,7 +259,8 @@ struct Tracer::Impl {
   void commit(RTCScene scene) {
     const auto goesOn = [](void* impl, double) {
       auto& self = *static_cast<Impl*>(impl);
-      self.stopped = self.stopped || !self.meter->lookAside(0);
+      const bool asks = std::this_thread::get_id() == self.builder;
+      if (asks && !self.meter->lookAside(0)) self.stopped = true;
       return !self.stopped;
     };
     if (meter) rtcSetSceneProgressMonitorFunction(scene, goesOn, this);

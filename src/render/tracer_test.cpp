@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/work.h"
 #include "render/sampler.h"
 #include "render/test_scenes.h"
 
@@ -36,6 +37,50 @@ TEST(Tracer, almostNoRayGetsOutOfWhatIsClosed) {
   room.box({-3, -1, -2}, {6, 2.7, 5}, room.material("#ffffff"));
   EXPECT_LE(lost(ball.finish(), {0.1, 0.2, 0.3}), 3);
   EXPECT_LE(lost(room.finish(), {0.1, 0.2, 0.3}), 3);
+}
+
+/// More triangles than one thread builds a structure of.
+World largeWorld() {
+  SceneMaker m;
+  const auto grey = m.material("#808080");
+  for (int i = 0; i < 22'000; ++i) {
+    m.box({1.5 * (i % 150), 0, 1.5 * (i / 150)}, {1, 1 + 0.1 * (i % 7), 1}, grey);
+  }
+  return makeWorld(m.finish(), nullptr);
+}
+
+TEST(Tracer, severalBuildersMakeTheSameOfALargeWorld) {
+  const World world = largeWorld();
+  ASSERT_GT(world.triangles, 250'000u);
+  const Tracer tracer(world), again(world);
+  for (uint32_t i = 0; i < 20'000; ++i) {
+    const Sampler numbers(1, 2, i, 3);
+    Ray ray;
+    ray.origin = toVec3f(world.bounds.center() + Vec3{0, 20, 0});
+    ray.direction = cosineDirection({0, -1, 0}, numbers.point(1));
+    Hit hit, other;
+    ASSERT_EQ(tracer.intersect(ray, hit), again.intersect(ray, other));
+    EXPECT_EQ(hit.triangle, other.triangle);
+    EXPECT_EQ(hit.distance, other.distance);
+  }
+}
+
+/// Says stop at once.
+class StopNow final : public WorkMeter {
+ public:
+  bool look(uint64_t, uint64_t) override { return false; }
+  bool lookAside(uint64_t) override { return false; }
+};
+
+TEST(Tracer, aMeterStopsSeveralBuilders) {
+  const World world = largeWorld();
+  StopNow meter;
+  const WorkScope scope(meter);
+  const Status built = guarded([&] {
+    const Tracer tracer(world);
+    return Status();
+  });
+  EXPECT_STREQ(built.code(), kWorkStopped);
 }
 
 }  // namespace

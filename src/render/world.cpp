@@ -21,9 +21,9 @@ namespace gable::rt {
 
 namespace {
 
-/// Rough bytes of a stored triangle and of a placement, acceleration structure included; only
-/// their ratio matters.
-constexpr double kTriangleCost = 100, kPlacementCost = 500;
+/// Rough bytes of a stored triangle, acceleration structure included, and what a placement may cost
+/// in place of its triangles: it takes a third of that itself, but each ray about it takes longer.
+constexpr double kTriangleCost = 100, kPlacementCost = 1500;
 /// Beyond this a coordinate is a mistake, and would spoil framing and precision for the rest.
 constexpr double kFarthest = 1e7;
 
