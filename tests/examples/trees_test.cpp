@@ -246,6 +246,8 @@ TEST(Trees, haveTheHeightThatIsAskedForAndTheirKindsProportions) {
   };
   // Width and clear stem as shares of the height.
   for (const Wanted& w : {Wanted{"lime", 11, 0.5, 0.95, 0.1},
+                          {"street", 6, 0.3, 0.95, 0.4},
+                          {"street", 10, 0.3, 0.95, 0.24},
                           {"oak", 13, 0.7, 1.5, 0.15},
                           {"plane", 15, 0.5, 1.2, 0.12},
                           {"birch", 12, 0.3, 0.7, 0.08},
@@ -324,9 +326,9 @@ Cost costOf(const std::string& kind, const std::string& name, const std::string&
   return cost;
 }
 
-constexpr const char* kKinds[] = {"Lime",     "Oak",     "Plane",  "Birch", "Poplar",
-                                  "Chestnut", "Cherry",  "Willow", "Olive", "Pine",
-                                  "Spruce",   "Cypress", "Palm"};
+constexpr const char* kKinds[] = {"Lime",   "Street",   "Oak",     "Plane",  "Birch",
+                                  "Poplar", "Chestnut", "Cherry",  "Willow", "Olive",
+                                  "Pine",   "Spruce",   "Cypress", "Palm"};
 
 TEST(Trees, haveFiveLevelsOfDetailFromCardsToAllLeaves) {
   for (const char* kind : kKinds) {
