@@ -159,6 +159,19 @@ TEST(Sharing, seesTagsOnlyWhereARuleReadsThem) {
   EXPECT_EQ(prototypesWithBays("split(z) { ~1 : cleanupGeometry(all, 0.1) Box. }*"), 13u);
 }
 
+// What a function takes out of a list may be any value. It is a number where only numbers go.
+TEST(Sharing, aNumberOfUnknownTypeIsNoWordForTheWorld) {
+  const std::string list =
+      "\nconst angles = [4, 8]\nangle(n) = angles[n]\n"
+      "const words = [\"scope\", \"world\"]\nword(n) = words[n]\n";
+  EXPECT_EQ(prototypesWithBays("rotate(rel, scope, angle(1), 0, 0) Box." + list), 2u);
+  EXPECT_EQ(prototypesWithBays(
+                "rotate(rel, scope, yAngle = angle(1), xAngle = 0, zAngle = 0) Box." + list),
+            2u);
+  // Where a word goes it may be one, and bays that look at the world are no prototype.
+  EXPECT_EQ(prototypesWithBays("rotate(rel, word(0), 4, 0, 0) Box." + list), 1u);
+}
+
 // Equal lots, and one of another size.
 Shapes row() {
   const Shapes lot = Shapes::lot(10, 7);

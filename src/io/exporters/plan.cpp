@@ -294,6 +294,7 @@ bool ScenePlan::isSolid(size_t prototype, double placements) const {
 }
 
 bool ScenePlan::isTiny(size_t prototype) const {
+  if (std::find(kept_.begin(), kept_.end(), prototype) != kept_.end()) return false;
   const double bytes = bytes_[prototype];
   return bytes <= smallest_ || (bytes <= more_.smallest && prototype <= more_.last);
 }
@@ -419,6 +420,7 @@ void ScenePlan::weigh() {
 // fifty more bytes; the first that is enough is searched by halves. Thousands of windows may have
 // nearly one size, so of those in the last step only so many are merged as has to be.
 void ScenePlan::merge(double mostNodes) {
+  kept_.clear();
   const double largest = std::max(*std::max_element(bytes_.begin(), bytes_.end()),
                                   *std::max_element(meshBytes_.begin(), meshBytes_.end()));
   std::vector<double> steps{kTinyBytes};
@@ -446,6 +448,37 @@ void ScenePlan::merge(double mostNodes) {
   }
   if (enough < last.size()) plan(steps[low], {steps[high], last[enough]});
   if (enough == last.size() || cost_.nodes > mostNodes) plan(steps[high]);
+  if (!grouped_) keepMore(mostNodes);
+}
+
+// One that stands thousands of times frees more nodes than had to be when it is merged. Of what is
+// merged, that which saves most and has room is not.
+void ScenePlan::keepMore(double mostNodes) {
+  constexpr double kWorthwhile = 1.0 / 16;
+  constexpr size_t kTries = 12;
+  if (cost_.nodes > mostNodes * (1 - kWorthwhile)) return;
+  const auto saves = [&](size_t p) { return (placements_[p] - 1) * bytes_[p]; };
+  std::vector<size_t> tried;
+  for (size_t p = 0; p < bytes_.size(); ++p) {
+    if (use_[p] == Use::Merged && isTiny(p) && bytes_[p] > kTinyBytes &&
+        placements_[p] <= mostNodes - cost_.nodes) {
+      tried.push_back(p);
+    }
+  }
+  const size_t count = std::min(kTries, tried.size());
+  std::partial_sort(
+      tried.begin(), tried.begin() + static_cast<std::ptrdiff_t>(count), tried.end(),
+      [&](size_t a, size_t b) { return std::pair(-saves(a), a) < std::pair(-saves(b), b); });
+  tried.resize(count);
+  const auto again = [this] { plan(smallest_, PartlyMerged(more_)); };
+  for (const size_t p : tried) {
+    const double bytes = cost_.bytes;
+    kept_.push_back(p);
+    again();
+    if (cost_.nodes <= mostNodes && cost_.bytes < bytes) continue;
+    kept_.pop_back();
+    again();
+  }
 }
 
 // Where merging would make the file much larger, equal children are to be one node: then all of

@@ -143,6 +143,7 @@ class ScenePlan {
   Cost aloneIn(size_t prototype) const;
   void weigh();
   void merge(double mostNodes);
+  void keepMore(double mostNodes);
   void fit(double mostNodes);
   void measureContents();
   double childCount(const Unit& u) const;
@@ -168,6 +169,8 @@ class ScenePlan {
   /// Prototypes up to so many bytes are merged wherever they stand.
   double smallest_ = 0;
   PartlyMerged more_;
+  /// Not merged for their size.
+  std::vector<size_t> kept_;
   /// What a node costs.
   double nodeBytes_ = 0;
   bool grouped_ = false;

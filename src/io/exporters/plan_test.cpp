@@ -214,6 +214,22 @@ TEST(Plan, aBoundOnNodesMergesFirstWhatSavesLeast) {
   expectWhole(b.scene);
 }
 
+TEST(Plan, nodesThatAreLeftOverShowWhatSavesMost) {
+  SceneBuilder b;
+  const uint32_t few = wall(b, 50), many = wall(b, 60), large = wall(b, 200);
+  const auto row = [&](uint32_t prototype, int count, double z) {
+    for (int i = 0; i < count; ++i) b.instance(prototype, Frame::moved({0, 5.0 * i, z}));
+  };
+  row(few, 10, 0);
+  row(many, 100, 9);
+  row(large, 12, 18);
+  b.root("quarter", b.prototype("Quarter"), Frame{});
+  // The hundred have to be merged; the ten before them need not be.
+  const ScenePlan plan(b.scene, {true, 100});
+  EXPECT_EQ(plan.units()[0].children.size(), 22u);
+  expectWhole(b.scene);
+}
+
 TEST(Plan, prototypesOfEqualContentAreOne) {
   SceneBuilder b;
   uint32_t towers[3];

@@ -4,6 +4,7 @@
 // Expressions: each leaves one value on the stack. Parts that the analysis folded are constants.
 
 #include <algorithm>
+#include <optional>
 
 #include "lang/compile/unit_compiler.h"
 #include "program/tag_effects.h"
@@ -205,6 +206,32 @@ bool takesSelectors(std::span<const Signature> signatures) {
   });
 }
 
+bool takesWords(ParamType type) {
+  switch (type) {
+    case ParamType::Float:
+    case ParamType::Size:
+    case ParamType::FloatingSize:
+    case ParamType::Drawn:
+    case ParamType::Bool:
+    case ParamType::FloatArray:
+    case ParamType::BoolArray: return false;
+    default: return true;
+  }
+}
+
+// Whether the argument `index` of so many, or the one with that name, may be a word.
+bool mayBeWord(std::span<const Signature> signatures, size_t count, size_t index,
+               std::optional<std::string_view> name) {
+  return std::ranges::any_of(signatures, [&](const Signature& s) {
+    if (name) {
+      return std::ranges::any_of(
+          s.params, [&](const ParamSpec& p) { return *name == p.name && takesWords(p.type); });
+    }
+    const ParamSpec* const param = s.paramAt(index);
+    return param && (s.variadic || count <= s.params.size()) && takesWords(param->type);
+  });
+}
+
 }  // namespace
 
 // The effects of a call with these arguments: words narrow or widen what the spec says.
@@ -214,8 +241,14 @@ uint32_t UnitCompiler::effectsOf(uint32_t effects, std::span<const Signature> si
   // An argument whose type is not known here (a parameter, an item of a list) may be any word.
   const bool byWord = (effects & kReadsWorldByWord) != 0;
   const bool byAny = byWord || takesSelectors(signatures);
-  for (NodeId argument : t_.children(arguments)) {
-    if (t_.kind(argument) == NodeKind::NamedArg) argument = t_.child(argument, 0);
+  const std::span<const NodeId> list = t_.children(arguments);
+  for (size_t i = 0; i < list.size(); ++i) {
+    NodeId argument = list[i];
+    std::optional<std::string_view> name;
+    if (t_.kind(argument) == NodeKind::NamedArg) {
+      name = t_.text(argument);
+      argument = t_.child(argument, 0);
+    }
     Value v;
     if (m_.types[argument] == ValueType::Code) {
       worldNamed |= namesWorldIn(argument);
@@ -228,8 +261,10 @@ uint32_t UnitCompiler::effectsOf(uint32_t effects, std::span<const Signature> si
                                                   : text.find("world.") != std::string_view::npos;
     } else {
       const ValueType type = m_.types[argument];
-      worldNamed |= type == ValueType::Selector || (type == ValueType::Null && byAny) ||
-                    (type == ValueType::String && byWord);
+      worldNamed |=
+          type == ValueType::Selector ||
+          (type == ValueType::Null && byAny && mayBeWord(signatures, list.size(), i, name)) ||
+          (type == ValueType::String && byWord);
     }
   }
   // Words for streets are among those for the world.
