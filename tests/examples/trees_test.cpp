@@ -383,5 +383,32 @@ TEST(People, areTwelveLooksThatStandOnTheGround) {
   EXPECT_EQ(looks.size(), 12u);
 }
 
+// Whatever stands in streets is a variant: many of them hold no more leaves than a few do.
+TEST(Shared, aCrowdHoldsNoMoreThanItsLooks) {
+  const auto stored = [](const std::string& file, const std::string& what, int count) {
+    const Rules rules = Rules::parse("version \"2025.1\"\nimport it : \"" + file +
+                                         ".cga\"\nLot --> scatter(surface, " +
+                                         std::to_string(count) + ", uniform) { it." + what + " }",
+                                     std::string(GABLE_SOURCE_DIR) + "/examples/grove/test.cga");
+    const Model model = derivedFrom(rules, Shapes::lot(200, 200), "Lot", 1);
+    EXPECT_FALSE(hasErrors(model.diagnostics())) << render(model.diagnostics());
+    return model.impl().result.scene.leaves.size();
+  };
+  for (const auto& [file, what] : {std::pair{"people", "Walker"},
+                                   {"people", "Sitter"},
+                                   {"people", "Rester"},
+                                   {"cars", "Car"},
+                                   {"vehicles", "Bus"},
+                                   {"vehicles", "Boat"},
+                                   {"street", "Cafe"},
+                                   {"street", "Stop"},
+                                   {"plants", "Shrub(1)"},
+                                   {"trees", "Street(7)"}}) {
+    const size_t some = stored(file, what, 300), many = stored(file, what, 900);
+    EXPECT_GT(some, 0u) << what;
+    EXPECT_LT(static_cast<double>(many), 1.2 * static_cast<double>(some)) << file << '.' << what;
+  }
+}
+
 }  // namespace
 }  // namespace gable
