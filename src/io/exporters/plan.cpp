@@ -456,28 +456,22 @@ void ScenePlan::merge(double mostNodes) {
 void ScenePlan::keepMore(double mostNodes) {
   constexpr double kWorthwhile = 1.0 / 16;
   constexpr size_t kTries = 12;
-  if (cost_.nodes > mostNodes * (1 - kWorthwhile)) return;
-  const auto saves = [&](size_t p) { return (placements_[p] - 1) * bytes_[p]; };
-  std::vector<size_t> tried;
+  const double room = mostNodes - cost_.nodes;
+  if (room < mostNodes * kWorthwhile) return;
+  std::vector<std::pair<double, size_t>> tried;
   for (size_t p = 0; p < bytes_.size(); ++p) {
-    if (use_[p] == Use::Merged && isTiny(p) && bytes_[p] > kTinyBytes &&
-        placements_[p] <= mostNodes - cost_.nodes) {
-      tried.push_back(p);
-    }
+    if (use_[p] != Use::Merged || !isTiny(p) || bytes_[p] <= kTinyBytes) continue;
+    if (placements_[p] <= room) tried.emplace_back((1 - placements_[p]) * bytes_[p], p);
   }
-  const size_t count = std::min(kTries, tried.size());
-  std::partial_sort(
-      tried.begin(), tried.begin() + static_cast<std::ptrdiff_t>(count), tried.end(),
-      [&](size_t a, size_t b) { return std::pair(-saves(a), a) < std::pair(-saves(b), b); });
-  tried.resize(count);
-  const auto again = [this] { plan(smallest_, PartlyMerged(more_)); };
-  for (const size_t p : tried) {
+  std::sort(tried.begin(), tried.end());
+  tried.resize(std::min(kTries, tried.size()));
+  for (const auto& [unsaved, p] : tried) {
     const double bytes = cost_.bytes;
     kept_.push_back(p);
-    again();
+    plan(smallest_, more_);
     if (cost_.nodes <= mostNodes && cost_.bytes < bytes) continue;
     kept_.pop_back();
-    again();
+    plan(smallest_, more_);
   }
 }
 
