@@ -451,13 +451,12 @@ void ScenePlan::merge(double mostNodes) {
   if (!grouped_) keepMore(mostNodes);
 }
 
-// One that stands thousands of times frees more nodes than had to be when it is merged. Of what is
-// merged, that which saves most and has room is not.
+// One that stands thousands of times frees too many nodes: others that save most are kept then.
 void ScenePlan::keepMore(double mostNodes) {
-  constexpr double kWorthwhile = 1.0 / 16;
+  constexpr double kFewLeft = 1.0 / 16;
   constexpr size_t kTries = 12;
   const double room = mostNodes - cost_.nodes;
-  if (room < mostNodes * kWorthwhile) return;
+  if (room < mostNodes * kFewLeft) return;
   std::vector<std::pair<double, size_t>> tried;
   for (size_t p = 0; p < bytes_.size(); ++p) {
     if (use_[p] != Use::Merged || !isTiny(p) || bytes_[p] <= kTinyBytes) continue;
