@@ -89,7 +89,10 @@ std::string hintOfImports(const std::string& name, const std::vector<std::string
   std::string hint;
   size_t found = 0;
   for (size_t i = 0; i < names.size() && !meant.empty(); ++i) {
-    if (last[i] != meant || found++ >= kShown) continue;
+    // Two files may import a third under one name.
+    const auto here = names.begin() + static_cast<std::ptrdiff_t>(i);
+    if (last[i] != meant || std::find(names.begin(), here, *here) != here) continue;
+    if (found++ >= kShown) continue;
     hint += (hint.empty() ? "did you mean '" : "' or '") + std::string(names[i]);
   }
   return hint.empty() ? hint
