@@ -74,6 +74,8 @@ std::shared_ptr<const Shapes::Impl> shapesOf(const CityPlan& plan, const MapFeat
   out->geo = map.geo;
   out->terrain = plan.terrain;
   out->ofMap = true;
+  // A list that grows copies meshes, and hears nothing meanwhile.
+  out->footprints.reserve(plan.shapes.size());
   std::map<std::pair<std::string, std::string>, uint32_t> seen;
   for (const CityShape& s : plan.shapes) {
     work();

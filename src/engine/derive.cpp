@@ -35,7 +35,9 @@ bool takesList(const Program& program, const std::string& name) {
          type == ValueType::StringArray;
 }
 
-std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, const Rules::Impl& r) {
+// Ends early when the caller has cancelled: the derivation ends then as well.
+std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, const Rules::Impl& r,
+                                        const std::atomic<bool>* cancel) {
   const Program& program = r.program;
   ValuePool& pool = *r.pool;
   std::vector<InitialShape> out;
@@ -43,6 +45,7 @@ std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, const Rules:
   // Whether the rules have one of the name.
   std::map<std::string, bool> rules;
   for (const ShapeFootprint& f : shapes.footprints) {
+    if (cancel && cancel->load()) break;
     InitialShape s;
     s.name = f.name;
     s.mesh = f.mesh;
@@ -336,7 +339,7 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
   DeriveOptions options = optionsOf(settings, r, impl->diagnostics);
   if (hasErrors(impl->diagnostics)) return impl;
   options.geo = shapes.impl().geo.get();
-  std::vector<InitialShape> initial = initialShapes(shapes.impl(), r);
+  std::vector<InitialShape> initial = initialShapes(shapes.impl(), r, settings.cancel);
   if (r.project) r.project->addTextures(shapes.impl().textures);
   for (const auto& [index, seed] : settings.shapeSeeds) {
     if (index < initial.size()) initial[index].seed = seed;
