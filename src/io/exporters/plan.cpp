@@ -453,10 +453,9 @@ void ScenePlan::merge(double mostNodes) {
 
 // One that stands thousands of times frees too many nodes: others that save most are kept then.
 void ScenePlan::keepMore(double mostNodes) {
-  constexpr double kFewLeft = 1.0 / 16;
-  constexpr size_t kTries = 12;
+  constexpr size_t kFewLeft = 16, kTries = 12;
   const double room = mostNodes - cost_.nodes;
-  if (room < mostNodes * kFewLeft) return;
+  if (room < mostNodes / kFewLeft) return;
   std::vector<std::pair<double, size_t>> tried;
   for (size_t p = 0; p < bytes_.size(); ++p) {
     if (use_[p] != Use::Merged || !isTiny(p) || bytes_[p] <= kTinyBytes) continue;
@@ -464,14 +463,15 @@ void ScenePlan::keepMore(double mostNodes) {
   }
   std::sort(tried.begin(), tried.end());
   tried.resize(std::min(kTries, tried.size()));
+  double least = cost_.bytes;
   for (const auto& [unsaved, p] : tried) {
-    const double bytes = cost_.bytes;
     kept_.push_back(p);
     plan(smallest_, more_);
-    if (cost_.nodes <= mostNodes && cost_.bytes < bytes) continue;
-    kept_.pop_back();
-    plan(smallest_, more_);
+    const bool saves = cost_.nodes <= mostNodes && cost_.bytes < least;
+    least = saves ? cost_.bytes : least;
+    if (!saves) kept_.pop_back();
   }
+  plan(smallest_, more_);
 }
 
 // Where merging would make the file much larger, equal children are to be one node: then all of
