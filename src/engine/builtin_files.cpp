@@ -4,6 +4,9 @@
 #include "engine/builtin_files.h"
 
 #include "builtins/ops/shared/insert.h"
+#include "io/image/leaf_pictures.h"
+#include "io/image/patterns.h"
+#include "io/image/surface.h"
 #include "material/builtin_textures.h"
 #include "material/library.h"
 
@@ -17,6 +20,17 @@ bool isBuiltinFile(std::string_view path) {
   }
   return isBuiltinTexture(path) || materialPictureOf(path).material != nullptr ||
          builtinModel(path).faceCount() > 0;
+}
+
+ImageInfo builtinImage(std::string_view path) {
+  if (builtinLeaves(path) < kBuiltinLeaves.size()) {
+    return {true, kLeafPictureSize, kLeafPictureSize, true};
+  }
+  if (materialPictureOf(path).material) return {true, kSurfaceSize, kSurfaceSize, false};
+  if (path.starts_with(kBuiltinTexturePrefix) && isBuiltinTexture(path)) {
+    return {true, kPatternSize, kPatternSize, false};
+  }
+  return {};
 }
 
 }  // namespace gable

@@ -9,6 +9,7 @@
 #include "base/files.h"
 #include "base/hash.h"
 #include "base/parallel_work.h"
+#include "engine/builtin_files.h"
 #include "io/image/image.h"
 #include "io/importers/asset.h"
 #include "io/importers/mtl_file.h"
@@ -191,6 +192,7 @@ Ref<AssetModel> Project::model(std::string_view path, std::string_view fromFile,
 }
 
 ImageInfo Project::image(std::string_view path, std::string_view fromFile) {
+  if (const ImageInfo builtin = builtinImage(path); builtin.found) return builtin;
   const std::string file = locate(path, fromFile);
   if (file.empty()) return {};
   const UncountedWork uncounted;

@@ -125,11 +125,13 @@ class LayerReader {
   float opacity() const {
     float opacity = material_.opacity;
     std::array<float, 4> texel;
-    if (read(TextureLayer::Color, texel)) opacity *= texel[3];
+    // One of them, as files that are written have it: both may be the same picture.
     if (read(TextureLayer::Opacity, texel)) {
       const int32_t image = material_.maps[static_cast<size_t>(TextureLayer::Opacity)].image;
       const bool alpha = world_.textures.hasAlpha[static_cast<size_t>(image)];
       opacity *= alpha ? texel[3] : luminance({texel[0], texel[1], texel[2]});
+    } else if (read(TextureLayer::Color, texel)) {
+      opacity *= texel[3];
     }
     if (material_.mask) opacity = opacity >= material_.cutoff ? 1.0f : 0.0f;
     return opacity;

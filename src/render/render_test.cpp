@@ -393,6 +393,17 @@ TEST(Render, cutOutTexelsShowWhatIsBehind) {
   EXPECT_LT(luminanceOf(through), 0.6 * luminanceOf(solid));
 }
 
+TEST(Render, aPictureThatIsColourAndOpacityCoversOnce) {
+  OneTexture textures = quarters();
+  for (size_t i = 3; i < textures.image.rgba.size(); i += 4) textures.image.rgba[i] = 160;
+  Material color;
+  color.opacityMode = OpacityMode::Mask;
+  Material both = color;
+  both.map(TextureLayer::Opacity).path = "quarters.png";
+  EXPECT_EQ(planOfTexturedQuad(textures, both).image.rgb,
+            planOfTexturedQuad(textures, color).image.rgb);
+}
+
 // Materials of the library say only by a texture that they are smooth.
 TEST(Textures, coarseOnesHaveTheLightOfTheirCells) {
   // Black and white by turns, the right half red.

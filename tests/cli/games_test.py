@@ -258,6 +258,15 @@ class Games(Case):
         answer = json.loads(self.run_gable("generate", "x.cga", "--lot", "9x9", "-o", "b.glb", "--for", "unreal", "--json"))
         self.assertEqual(answer["files"], ["b.glb", "b_LOD1.glb", "b_LOD2.glb"])
 
+    def testLeavesAreCutOut(self):
+        self.put("l.cga", 'Lot --> primitiveQuad() color("#7c9a45") texture("builtin:leaves/lime.png")\n'
+                          '        set(material.opacitymap.mode, "mask") Foliage.\n')
+        for name in ("l.glb", "l.usda", "l.obj"):
+            self.run_gable("generate", "l.cga", "--lot", "4x4", "-o", name)
+        self.assertEqual([m.get("alphaMode") for m in Glb(self.folder / "l.glb").json["materials"]], ["MASK"])
+        self.assertIn("inputs:opacityThreshold = 0.5", (self.folder / "l.usda").read_text())
+        self.assertIn("map_d", (self.folder / "l.mtl").read_text())
+
     def testLevelsAreCoarser(self):
         glb, _ = self.made("--for", "unity")
         counts = [len(glb.triangles(glb.node(f"House_col_1_part_LOD{n}"))) for n in range(3)]
