@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 //
-// Counts of a scene, instances expanded. Counts are summed once a prototype, its instances' counts
-// being known before (they have smaller indices), so the work is linear in what is stored.
+// Counts of a scene, instances expanded, in time linear in what is stored: a prototype counts as
+// often as it stands, which is known of its users before (they have larger indices).
 //
 // Bounds cannot be summed so: a turned box around a box is too large. They are taken from the
 // points of expanded leaves, as every writer places them, but a prototype or a leaf whose own box,
 // placed, lies within the bounds found so far is passed over: it cannot change them. That keeps the
 // result exact and independent of sharing, while repeated content costs one test.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "scene/flatten.h"
 #include "scene/scene.h"
@@ -25,6 +27,19 @@ struct Tally {
     vertices = saturatingAdd(vertices, t.vertices);
     triangles = saturatingAdd(triangles, t.triangles);
     encoderFaces = saturatingAdd(encoderFaces, t.encoderFaces);
+  }
+  /// Of numbers that fit in 32 bits, at most 2^32 times.
+  void addFew(const Tally& t) {
+    leaves += t.leaves;
+    faces += t.faces;
+    vertices += t.vertices;
+    triangles += t.triangles;
+    encoderFaces += t.encoderFaces;
+  }
+  Tally times(uint64_t n) const {
+    return {saturatingMultiply(leaves, n), saturatingMultiply(faces, n),
+            saturatingMultiply(vertices, n), saturatingMultiply(triangles, n),
+            saturatingMultiply(encoderFaces, n)};
   }
 };
 
@@ -73,42 +88,77 @@ bool within(const Box3& inner, const Box3& outer) {
           inner.max.x <= outer.max.x && inner.max.y <= outer.max.y && inner.max.z <= outer.max.z);
 }
 
-/// A mesh or a prototype: what is in it, and a box around it in its own frame, that of a prototype
-/// with room for rounding.
-struct Part {
-  Tally tally;
-  Box3 box;
+/// Around a prototype in its own frame, with room for rounding. There are as many as prototypes, so
+/// it is half as large as a Box3.
+struct RoughBox {
+  std::array<float, 3> min, max;
+
+  explicit RoughBox(const Box3& b)
+      : min{below(b.min.x), below(b.min.y), below(b.min.z)},
+        max{above(b.max.x), above(b.max.y), above(b.max.z)} {}
+  Box3 box() const { return {{min[0], min[1], min[2]}, {max[0], max[1], max[2]}}; }
+
+ private:
+  static float below(double d) {
+    const auto f = static_cast<float>(d);
+    return f > d ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
+  }
+  static float above(double d) { return -below(-d); }
 };
 
+/// What is known of meshes and prototypes.
 struct Parts {
-  std::vector<Part> meshes, prototypes;
+  std::vector<Tally> tallies;
+  std::vector<Box3> meshes;
+  std::vector<RoughBox> prototypes;
 };
 
-// Leaves and instances are most of a scene, so they are gone through once.
-Part partOf(const Scene& scene, const Prototype& p, const Parts& known) {
-  Part out;
+/// How often each prototype stands in the scene.
+std::vector<uint64_t> usesOf(const Scene& scene) {
+  std::vector<uint64_t> uses(scene.prototypes.size());
+  const auto use = [&](uint32_t prototype, uint64_t times) {
+    uses[prototype] = saturatingAdd(uses[prototype], times);
+  };
+  for (const Root& r : scene.roots) use(r.instance.prototype, 1);
+  for (size_t p = scene.prototypes.size(); p-- > 0;) {
+    const Prototype& user = scene.prototypes[p];
+    for (uint32_t i = 0; i < user.instanceCount; ++i) {
+      use(scene.instances[user.firstInstance + i].prototype, uses[p]);
+    }
+  }
+  return uses;
+}
+
+/// Leaves and instances are most of a scene, so they are gone through once for both.
+Tally measure(const Scene& scene, const Prototype& p, Parts& known) {
+  Tally own;
+  Box3 box;
   for (uint32_t i = 0; i < p.leafCount; ++i) {
     const Leaf& l = scene.leaves[p.firstLeaf + i];
-    const Part& mesh = known.meshes[l.mesh];
-    out.tally.add(mesh.tally);
-    out.box.include(widened(placed(mesh.box, l.scale, l.frame)));
+    own.addFew(known.tallies[l.mesh]);
+    box.include(widened(placed(known.meshes[l.mesh], l.scale, l.frame)));
   }
   for (uint32_t i = 0; i < p.instanceCount; ++i) {
     const Instance& in = scene.instances[p.firstInstance + i];
-    const Part& inner = known.prototypes[in.prototype];
-    out.tally.add(inner.tally);
-    out.box.include(widened(placed(inner.box, {1, 1, 1}, in.frame)));
+    box.include(widened(placed(known.prototypes[in.prototype].box(), {1, 1, 1}, in.frame)));
   }
-  return out;
+  known.prototypes.emplace_back(box);
+  return own;
 }
 
-Parts partsOf(const Scene& scene) {
-  Parts out;
-  out.meshes.reserve(scene.meshes.size());
-  out.prototypes.reserve(scene.prototypes.size());
-  for (const MeshRef& m : scene.meshes) out.meshes.push_back({tallyOf(*m), m->bounds()});
-  for (const Prototype& p : scene.prototypes) out.prototypes.push_back(partOf(scene, p, out));
-  return out;
+/// The counts of all; `parts` becomes known.
+Tally measure(const Scene& scene, Parts& parts) {
+  for (const MeshRef& m : scene.meshes) {
+    parts.tallies.push_back(tallyOf(*m));
+    parts.meshes.push_back(m->bounds());
+  }
+  parts.prototypes.reserve(scene.prototypes.size());
+  const std::vector<uint64_t> uses = usesOf(scene);
+  Tally all;
+  for (size_t p = 0; p < scene.prototypes.size(); ++p) {
+    all.add(measure(scene, scene.prototypes[p], parts).times(uses[p]));
+  }
+  return all;
 }
 
 class Bounds {
@@ -132,7 +182,7 @@ class Bounds {
   }
 
   bool couldGrow(uint32_t prototype, const Frame& world) {
-    const Box3 box = widened(placed(parts_.prototypes[prototype].box, {1, 1, 1}, world));
+    const Box3 box = widened(placed(parts_.prototypes[prototype].box(), {1, 1, 1}, world));
     if (within(box, found_)) return false;
     if (visits_++ < kMaxVisits) return true;
     found_.include(box);
@@ -141,7 +191,7 @@ class Bounds {
 
   void grow(const Leaf& leaf, const Frame& around) {
     const Frame world = around * leaf.frame;
-    if (within(widened(placed(parts_.meshes[leaf.mesh].box, leaf.scale, world)), found_)) return;
+    if (within(widened(placed(parts_.meshes[leaf.mesh], leaf.scale, world)), found_)) return;
     for (const Vec3& p : scene_.meshes[leaf.mesh]->positions) {
       found_.include(world.point(scaled(p, leaf.scale)));
     }
@@ -160,11 +210,10 @@ class Bounds {
 }  // namespace
 
 SceneCounts count(const Scene& scene) {
-  const Parts parts = partsOf(scene);
-  Tally all;
+  Parts parts;
+  const Tally all = measure(scene, parts);
   SceneCounts counts;
   for (const Root& r : scene.roots) {
-    all.add(parts.prototypes[r.instance.prototype].tally);
     counts.shapes = saturatingAdd(counts.shapes, scene.prototypes[r.instance.prototype].shapes);
   }
   counts.leaves = all.leaves;
