@@ -60,7 +60,7 @@ enum class Code : uint8_t {
   Bind,               // pops a value for rule attribute a until the block ends
   EndLocals,
   Leaf,          // a shape named constants[a] that has no rule
-  SetAttribute,  // pops a value into rule attribute a
+  SetAttribute,  // pops a value into rule attribute a; x: another follows at once
   Initialise,    // push the value of attribute a, evaluated anew on the present shape
   SetBuiltin,    // pops a value into builtinAttributes[a]
   PushShape,

@@ -126,6 +126,7 @@ void Machine::beginUnit() {
   portion_ = nullptr;
   portionBase_ = nullptr;
   log_.beginUnit();
+  openAttributes_.drop();
   holes_.begin();
   prototypes_.beginUnit();
   rootKey_ = {};
@@ -290,6 +291,7 @@ std::vector<EvaluatedAttribute> Machine::attributeValues() {
     const AttributeCode& code = program_.attributes[a];
     if (code.constant || !shownAttributes_[a] || code.name.find('.') != std::string::npos) continue;
     aborted_ = false;
+    openAttributes_.drop();
     stack_.cut(0);
     seen_ = &info_.shape;
     divided_ = nullptr;

@@ -32,6 +32,7 @@
 #include "runtime/light_parts.h"
 #include "runtime/local_values.h"
 #include "runtime/message_log.h"
+#include "runtime/open_attributes.h"
 #include "runtime/output.h"
 #include "runtime/portion.h"
 #include "runtime/prototypes.h"
@@ -384,6 +385,7 @@ class Machine final : public Services, private WorkMeter {
   /// By the numbers of calls with constant arguments.
   std::vector<BoundArguments> bound_;
   BlockSelectors selectors_;
+  OpenAttributes openAttributes_;
 
   // The initial shape at work.
   InitialShapeInfo info_;

@@ -154,6 +154,12 @@ void Machine::ruleAttribute(const Instruction& i) {
       return;
     }
   }
+  if (openAttributes_.isOpen()) {
+    if (const Value* given = openAttributes_.find(seen_, a)) {
+      pushAttribute(a, *given);
+      return;
+    }
+  }
   if (seen_->attributes != 0) {
     if (const Value* set = attributes().find(seen_->attributes, a)) {
       pushAttribute(a, *set);
@@ -282,6 +288,8 @@ Value noneOf(ValueType type, ValuePool& pool) {
 void Machine::componentValues(const Instruction& i) {
   const BlockCode& block = program_.blocks[i.y - 1u];
   const Value* arguments = stack_.take(block.valueCount + i.x);
+  // Components have the attributes of their shape.
+  openAttributes_.close(attributes());
   Shape shape = *seen_;
   std::vector<BlockChild> parts;
   std::vector<uint32_t> partOf;
@@ -365,6 +373,7 @@ Value Machine::evaluateAtWork(uint32_t entry, uint64_t address, const Shape* as)
   const Instruction* resumeAt = pc_;
   const Instruction* caller = instruction_;
   const Shape* outer = seen_;
+  openAttributes_.close(attributes());
   Shape at = as ? *as : *seen_;
   at.path = address;
   const uint32_t covered = stack_.cover();

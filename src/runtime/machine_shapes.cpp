@@ -362,10 +362,16 @@ void Machine::popShape() {
 void Machine::setAttribute(const Instruction& i) {
   const Value v = pop();
   Shape& s = current().shape;
-  if (locals_.find(s.locals, i.a))
+  const bool othersFollow = i.x != 0;
+  if (locals_.find(s.locals, i.a)) {
     bind(i.a, v);
-  else
+  } else if (othersFollow || openAttributes_.isOpen()) {
+    if (!openAttributes_.isOpen()) openAttributes_.open(s);
+    openAttributes_.set(i.a, v);
+  } else {
     s.attributes = attributes().with(s.attributes, i.a, v);
+  }
+  if (!othersFollow) openAttributes_.close(attributes());
 }
 
 void Machine::setBuiltin(const Instruction& i, const Value& v) {

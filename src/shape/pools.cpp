@@ -287,6 +287,20 @@ uint32_t AttributePool::with(uint32_t set, uint32_t key, const Value& value) {
   return result;
 }
 
+uint32_t AttributePool::with(uint32_t set, const std::vector<Entry>& more) {
+  const std::vector<Entry>& before = entries(set);
+  std::vector<Entry> all;
+  all.reserve(before.size() + more.size());
+  auto at = before.begin();
+  for (const Entry& e : more) {
+    for (; at != before.end() && at->key < e.key; ++at) all.push_back(*at);
+    if (at != before.end() && at->key == e.key) ++at;
+    all.push_back(e);
+  }
+  all.insert(all.end(), at, before.end());
+  return impl_->sets.intern(hashOf(all), all);
+}
+
 const std::vector<MaterialId>& AttributePool::materials(uint32_t list) const {
   return impl_->lists.get(list).materials;
 }

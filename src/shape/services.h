@@ -104,6 +104,8 @@ class AttributePool {
   const std::vector<Entry>& entries(uint32_t set) const;
   const Value* find(uint32_t set, uint32_t key) const;
   uint32_t with(uint32_t set, uint32_t key, const Value& value);
+  /// With several more, sorted by key.
+  uint32_t with(uint32_t set, const std::vector<Entry>& more);
 
   /// Lists of materials for the slots of inserted models; list 0 is empty. Behind the materials in
   /// use a list holds those that the model brought, in the same order, for resetMaterial.

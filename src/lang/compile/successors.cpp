@@ -77,14 +77,18 @@ void UnitCompiler::importApply(NodeId node) {
 void UnitCompiler::enterDynamicImport(NodeId node) {
   const DynamicImport* import = r_.dynamicImport(m_.id, node);
   if (!import) return;
+  size_t left = import->given.size() + import->initOrder.size();
+  const auto set = [&](Span span, AttributeId a) {
+    e_.emit(Code::SetAttribute, span, a, --left > 0);
+  };
   for (const DynamicImport::Given& g : import->given) {
     expression(g.value);
-    e_.emit(Code::SetAttribute, t_.span(g.value), g.attribute);
+    set(t_.span(g.value), g.attribute);
   }
   for (AttributeId a : import->initOrder) {
     uses_.initialisers.insert(a);
     e_.emit(Code::Initialise, t_.span(node), a);
-    e_.emit(Code::SetAttribute, t_.span(node), a);
+    set(t_.span(node), a);
   }
 }
 
