@@ -8,6 +8,6 @@
 void useLargePages();
 
 /// Keeps what is freed from now on for what comes next, where mimalloc is installed: for work that
-/// asks for the same large blocks again and again, such as the pictures of a data set. The system
-/// need not clear them each time. MIMALLOC_ALLOW_DECOMMIT=1 gives them back.
+/// asks for the same large blocks again and again, such as the pictures of a data set or the models
+/// of a page. The system need not clear them each time. MIMALLOC_ALLOW_DECOMMIT=1 gives them back.
 void keepMemory();

@@ -13,6 +13,7 @@
 
 #include "commands.h"
 #include "folders.h"
+#include "memory.h"
 
 namespace {
 
@@ -43,6 +44,7 @@ std::string escaped(const std::string& path) {
 }  // namespace
 
 int runStudioCommand(const StudioArguments& arguments) {
+  keepMemory();
   gable::StudioSettings settings;
   const auto [project, file] = projectOf(arguments.folder);
   const std::string address = file.empty() ? std::string() : "#file=" + escaped(file);
