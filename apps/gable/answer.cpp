@@ -3,9 +3,29 @@
 
 #include "answer.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdio>
+#include <filesystem>
 
+#include "common.h"
+#include "progress.h"
 #include "terminal.h"
+
+namespace {
+
+/// "812 bytes", "73.4 kB", "2.9 MB".
+std::string sizeText(uintmax_t bytes) {
+  if (bytes < 1000) return std::to_string(bytes) + " bytes";
+  constexpr double kKilo = 1e3, kMega = 1e6;
+  const bool large = static_cast<double>(bytes) >= kMega;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f %s", static_cast<double>(bytes) / (large ? kMega : kKilo),
+                large ? "MB" : "kB");
+  return text;
+}
+
+}  // namespace
 
 void Answer::add(const gable::DiagnosticList& diagnostics) {
   diagnostics_.insert(diagnostics_.end(), diagnostics.begin(), diagnostics.end());
@@ -49,6 +69,20 @@ std::string Answer::take(int status) {
   return out;
 }
 
+std::string Answer::filesText() const {
+  constexpr size_t kShown = 5;
+  std::string out;
+  for (size_t i = 0; i < std::min(files_.size(), kShown); ++i) {
+    std::error_code none;
+    const auto bytes = std::filesystem::is_regular_file(files_[i], none)
+                           ? std::filesystem::file_size(files_[i], none)
+                           : 0;
+    out += files_[i] + (none || bytes == 0 ? "" : "  " + sizeText(bytes)) + "\n";
+  }
+  if (files_.size() > kShown) out += "and " + std::to_string(files_.size() - kShown) + " more\n";
+  return out;
+}
+
 Answer& answer() {
   static Answer one;
   return one;
@@ -56,6 +90,11 @@ Answer& answer() {
 
 void printAnswer(int status) {
   // Also without --json, so that it does not grow with each run of --watch.
+  const std::string files = answer().filesText();
   const std::string text = answer().take(status);
-  if (terminal().json) std::fputs(text.c_str(), stdout);
+  if (terminal().json) {
+    std::fputs(text.c_str(), stdout);
+  } else if (!hasTold() && status == kExitDone && Progress::isShown()) {
+    std::fputs(files.c_str(), stderr);
+  }
 }

@@ -30,6 +30,8 @@ class Answer {
   /// All members of an object, given as its text.
   void members(std::string_view object);
 
+  /// The files with their sizes, a line each.
+  std::string filesText() const;
   /// The object, and makes ready for the next one (--watch).
   std::string take(int status);
   /// Whether one was taken.
@@ -47,5 +49,6 @@ class Answer {
 /// That of this run; without --json nobody reads it.
 Answer& answer();
 
-/// Takes the answer, and prints it to the standard output with --json.
+/// Takes the answer, and prints it to the standard output with --json; else, on a terminal, what was
+/// written by a command that has done its work and has said nothing.
 void printAnswer(int status);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 #include "answer.h"
 #include "common.h"
@@ -62,6 +63,9 @@ std::string paintedLine(std::string_view line) {
   return caret ? inked(kGreen, line) : std::string(line);
 }
 
+// Of tell() and put(), on the main thread alone.
+bool told = false;
+
 }  // namespace
 
 TerminalOptions& terminal() {
@@ -114,15 +118,19 @@ void print(const gable::DiagnosticList& diagnostics, std::FILE* stream) {
 
 void tell(const std::string& text) {
   if (terminal().json || terminal().quiet) return;
+  told = true;
   const Progress::Pause pause;
   std::fputs(text.c_str(), stdout);
 }
 
 void put(const std::string& text) {
   if (terminal().json) return;
+  told = true;
   const Progress::Pause pause;
   std::fputs(text.c_str(), stdout);
 }
+
+bool hasTold() { return std::exchange(told, false); }
 
 void note(const std::string& text) {
   if (terminal().json || terminal().quiet) return;

@@ -49,6 +49,9 @@ void tell(const std::string& text);
 /// Prints what was asked for, as text; nothing with --json, where the answer has it.
 void put(const std::string& text);
 
+/// Whether tell() or put() have said something since the last question.
+bool hasTold();
+
 /// A word beside the work, on the error output; nothing with --quiet or --json.
 void note(const std::string& text);
 /// What rules print, a line each.
