@@ -164,15 +164,18 @@ gable::Model& heldModel() {
   return model;
 }
 
+void deriveHeld(const gable::Rules& rules, const gable::Shapes& shapes,
+                gable::DeriveSettings settings) {
+  heldModel() = gable::Model(nullptr);
+  Progress progress("deriving", "shapes");
+  settings.progress = progress.callback();
+  heldModel() = gable::derive(rules, shapes, settings);
+}
+
 gable::Model deriveModel(const gable::Rules& rules, const gable::Shapes& shapes,
-                         gable::DeriveSettings settings, std::FILE* prints) {
-  gable::Model& held = heldModel();
-  held = gable::Model(nullptr);
-  held = [&] {
-    Progress progress("deriving", "shapes");
-    settings.progress = progress.callback();
-    return gable::derive(rules, shapes, settings);
-  }();
+                         const gable::DeriveSettings& settings, std::FILE* prints) {
+  deriveHeld(rules, shapes, settings);
+  const gable::Model& held = heldModel();
   print(held.diagnostics());
   printLines(held.prints(), prints);
   return held;

@@ -23,9 +23,12 @@ int readRules(const DeriveArguments& arguments, gable::Rules& rules);
 /// by piece a large one takes tenths of a second.
 gable::Model& heldModel();
 
-/// Derives, with a line of progress. What the rules print goes to `prints`.
+/// Makes heldModel(), with a line of progress.
+void deriveHeld(const gable::Rules& rules, const gable::Shapes& shapes,
+                gable::DeriveSettings settings);
+/// The same, and prints its diagnostics. What the rules print goes to `prints`.
 gable::Model deriveModel(const gable::Rules& rules, const gable::Shapes& shapes,
-                         gable::DeriveSettings settings, std::FILE* prints);
+                         const gable::DeriveSettings& settings, std::FILE* prints);
 
 /// How the arguments want a model written to a path; says what they have against a profile. An exit
 /// status other than kExitDone when an option is wrong.

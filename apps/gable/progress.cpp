@@ -16,6 +16,8 @@
 namespace {
 
 constexpr double kFirstSeconds = 1.0;
+/// What is counted after less has no rate yet.
+constexpr double kLeastSeconds = 0.2;
 constexpr std::chrono::milliseconds kBetween{200};
 constexpr const char* kErase = "\r\033[K";
 
@@ -111,6 +113,8 @@ bool Progress::isShown() { return !terminal().quiet && isScreen(stderr); }
 std::function<void(size_t, size_t)> Progress::callback() {
   if (!isShown()) return {};
   return [this](size_t done, size_t total) {
+    double never = 0;
+    countedFrom_.compare_exchange_strong(never, secondsNow());
     total_.store(total, std::memory_order_relaxed);
     done_.store(done, std::memory_order_relaxed);
   };
@@ -126,8 +130,10 @@ void Progress::draw() {
 }
 
 void Progress::show() {
-  const std::string text = progressText(what_, unit_, done_.load(), total_.load(),
-                                        secondsNow() - begin_, terminalColumns());
+  const double from = countedFrom_.load();
+  const double seconds = std::max(kLeastSeconds, secondsNow() - (from > 0 ? from : begin_));
+  const std::string text =
+      progressText(what_, unit_, done_.load(), total_.load(), seconds, terminalColumns());
   const std::lock_guard hold(screen());
   std::fprintf(stderr, "%s%s", kErase, text.c_str());
   std::fflush(stderr);

@@ -22,7 +22,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// May be called from any thread, as often as one likes: it keeps two numbers. Absent where
+  /// May be called from any thread, as often as one likes: it keeps two numbers. Rate and time left
+  /// are those since the first call, for what goes before it says nothing of them. Absent where
   /// nothing is drawn.
   std::function<void(size_t done, size_t total)> callback();
   /// Whether a bar may be drawn.
@@ -47,6 +48,8 @@ class Progress {
   std::string what_, unit_;
   double begin_;
   std::atomic<size_t> done_{0}, total_{0};
+  /// When it was first told of them; 0 before.
+  std::atomic<double> countedFrom_{0};
   std::mutex lock_;
   std::condition_variable end_;
   bool ended_ = false;

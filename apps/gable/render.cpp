@@ -307,18 +307,20 @@ int readForPicture(RenderArguments& a, Inputs& inputs) {
                               "'; " + (meant.empty() ? "there are " + list : meant));
 }
 
-int makeModel(RenderArguments& arguments, gable::Model& model) {
+/// Makes heldModel().
+int makeModel(RenderArguments& arguments) {
   if (isModel(arguments.derive.rules)) {
     // A model has no styles of its own.
     if (arguments.look.empty() && gable::lookNamed(arguments.derive.style.value_or(""))) {
       arguments.look = *arguments.derive.style;
     }
-    model = gable::Model::load(arguments.derive.rules, fileLimits(arguments.derive.limits));
+    heldModel() = gable::Model(nullptr);
+    heldModel() = gable::Model::load(arguments.derive.rules, fileLimits(arguments.derive.limits));
     return kExitDone;
   }
   Inputs inputs;
   if (const int status = readForPicture(arguments, inputs)) return status;
-  model = gable::derive(inputs.rules, inputs.shapes, inputs.settings);
+  deriveHeld(inputs.rules, inputs.shapes, inputs.settings);
   return kExitDone;
 }
 
@@ -332,9 +334,8 @@ int renderOnce(RenderArguments arguments) {
   }
   gable::PictureSettings settings;
   if (const int status = pictureSettings(arguments, settings)) return status;
-  gable::Model& model = heldModel();
-  model = gable::Model(nullptr);
-  if (const int status = makeModel(arguments, model)) return status;
+  if (const int status = makeModel(arguments)) return status;
+  const gable::Model& model = heldModel();
   settings.look = gable::lookNamed(arguments.look).value_or(settings.look);
   print(model.diagnostics());
   if (!model.found()) return statusOf(model.diagnostics(), kExitFile);

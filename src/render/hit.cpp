@@ -90,7 +90,8 @@ class LayerReader {
         corners_(corners),
         u_(u),
         v_(v),
-        width_(width) {}
+        // How wide a texel is, is known only where textures lie in metres.
+        width_(material.laid || width >= kNoDetails ? width : 0) {}
 
   /// Where a laid material's textures are read: at a point of the world, on a face with these axes.
   void lay(const FaceAxes& axes, const Vec3f& point) {
@@ -103,20 +104,18 @@ class LayerReader {
     const size_t i = static_cast<size_t>(layer);
     const TextureLookup& map = material_.maps[i];
     if (map.image < 0) return false;
-    const bool isColor = layer == TextureLayer::Color || layer == TextureLayer::Dirt ||
-                         layer == TextureLayer::Emissive;
+    const bool decode = isColor(layer);
     const int uvSet = material_.laid ? -1 : setOf(corners_, i);
     if (!material_.laid && uvSet < 0) return false;
     // Roughness, metalness and occlusion are often channels of one picture.
     const bool known = last_ && last_->image == map.image && lastSet_ == uvSet &&
-                       lastIsColor_ == isColor && *last_ == map;
+                       lastIsColor_ == decode && *last_ == map;
     if (!known) {
       const Vec2f at = material_.laid ? laidAt_ : uvAt(set_, corners_, uvSet, u_, v_);
-      lastValue_ = isCoarse(map) ? world_.textures.sampleCoarse(map, at, isColor)
-                                 : world_.textures.sample(map, at, isColor);
+      lastValue_ = world_.textures.sample(map, at, decode, width_);
       last_ = &map;
       lastSet_ = uvSet;
-      lastIsColor_ = isColor;
+      lastIsColor_ = decode;
     }
     value = lastValue_;
     return true;
@@ -138,14 +137,6 @@ class LayerReader {
   }
 
  private:
-  /// Whether a coarse texel is no wider than what is to be seen. How wide one is, is known where
-  /// textures lie in metres.
-  bool isCoarse(const TextureLookup& map) const {
-    if (!material_.laid) return width_ >= kNoDetails;
-    const float perMetre = std::max(std::abs(map.uu), std::abs(map.vu));
-    return width_ * perMetre * static_cast<float>(TextureTable::kCoarse) > 1;
-  }
-
   const World& world_;
   const SurfaceMaterial& material_;
   const TriangleSet& set_;

@@ -77,18 +77,8 @@ class Tracing {
     return scatterOn(w, surface, lobes, view);
   }
 
-  PathResult result;
-
- private:
-  /// On to the next surface; false where the path ends.
-  bool step(Walk& w) {
-    Surface surface;
-    float distance = 0;
-    ++result.rays;
-    if (!meet(stage_, w.ray, w.sharp, surface, distance)) {
-      miss(w);
-      return false;
-    }
+  /// At what its ray has met, and from there on; false where the path ends.
+  bool arrive(Walk& w, const Surface& surface, float distance) {
     if (w.clearWater > 0) leaveWater(w, distance);
     if (w.sharp && stage_.haze > 0) fade(w, surface, distance);
     if (!w.mirrored && w.sharp) w.travelled += distance;
@@ -114,6 +104,19 @@ class Tracing {
     }
     gatherSun(w, surface, lobes, view);
     return leave(w, surface, lobes, view);
+  }
+
+  PathResult result;
+
+ private:
+  /// On to the next surface; false where the path ends.
+  bool step(Walk& w) {
+    Surface surface;
+    float distance = 0;
+    ++result.rays;
+    if (meet(stage_, w.ray, w.sharp, surface, distance)) return arrive(w, surface, distance);
+    miss(w);
+    return false;
   }
 
   /// Where the light of a step goes to.
@@ -343,6 +346,12 @@ constexpr float kClamp = 4;
 
 }  // namespace
 
+void keepFinite(PathResult& result) {
+  for (Vec3f* part : {&result.direct, &result.sun, &result.indirect}) {
+    if (!isFinite(*part)) *part = {};
+  }
+}
+
 float clearAlong(const Stage& stage, const Surface& surface, float distance) {
   const float far = surface.isGround ? std::max(0.0f, distance - stage.nearGround) : 0;
   return std::exp(-distance * stage.haze - far * far * kGroundFade);
@@ -389,11 +398,19 @@ PathResult tracePath(const Stage& stage, const Ray& ray, uint32_t x, uint32_t y,
   Walk walk;
   walk.ray = ray;
   tracing.follow(walk);
-  PathResult& result = tracing.result;
-  for (Vec3f* part : {&result.direct, &result.sun, &result.indirect}) {
-    if (!isFinite(*part)) *part = {};
-  }
-  return result;
+  keepFinite(tracing.result);
+  return tracing.result;
+}
+
+PathResult goOnFrom(const Stage& stage, const PathStart& start, const Surface& surface,
+                    float distance, uint32_t seed, bool brief) {
+  const Sampler sampler(start.x, start.y, start.sample, seed);
+  Tracing tracing(stage, sampler, brief);
+  ++tracing.result.rays;
+  Walk walk;
+  walk.ray = start.ray;
+  if (tracing.arrive(walk, surface, distance)) tracing.follow(walk);
+  return tracing.result;
 }
 
 PathResult goOn(const Stage& stage, const PathStart& start, const Surface& surface,

@@ -24,6 +24,9 @@ struct PathResult {
   uint32_t rays = 0;
 };
 
+/// Light that is no number counts as none.
+void keepFinite(PathResult& result);
+
 /// Coats smoother than this show a picture of their surroundings, which must not be smoothed.
 /// No material of the library varies about it, painted metal and copper least of all: its own
 /// roughness would speckle it.
@@ -55,6 +58,10 @@ struct PathStart {
   Ray ray;
   uint32_t x = 0, y = 0, sample = 0;
 };
+
+/// The path that meets that surface first.
+PathResult goOnFrom(const Stage& stage, const PathStart& start, const Surface& surface,
+                    float distance, uint32_t seed, bool brief);
 
 /// The rest of a path whose first surface, one that mirrors nothing and is not clear, has its
 /// sunlight already; `carried`: what of the light that leaves it gets to the camera.

@@ -422,16 +422,34 @@ TEST(Textures, coarseOnesHaveTheLightOfTheirCells) {
   table.add(image);
   rt::TextureLookup map;
   map.image = 0;
-  for (const float v : {-3.7f, 0.0f, 0.4f, 0.999f}) {
-    const std::array<float, 4> grey = table.sampleCoarse(map, {0.3f, v}, true);
-    EXPECT_NEAR(grey[0], 0.5, 0.01);
-    EXPECT_NEAR(grey[2], 0.5, 0.01);
-    EXPECT_EQ(grey[3], 1);
-    const std::array<float, 4> red = table.sampleCoarse(map, {-0.3f, v}, true);
-    EXPECT_NEAR(red[0], 1, 1e-6);
-    EXPECT_NEAR(red[1], 0, 1e-6);
+  for (const float width : {1 / 32.0f, 1 / 16.0f, 1e30f}) {
+    for (const float v : {-3.7f, 0.0f, 0.4f, 0.999f}) {
+      const std::array<float, 4> grey = table.sample(map, {0.3f, v}, true, width);
+      EXPECT_NEAR(grey[0], 0.5, 0.01);
+      EXPECT_NEAR(grey[2], 0.5, 0.01);
+      EXPECT_EQ(grey[3], 1);
+      const std::array<float, 4> red = table.sample(map, {-0.3f, v}, true, width);
+      EXPECT_NEAR(red[0], 1, 1e-6);
+      EXPECT_NEAR(red[1], 0, 1e-6);
+    }
   }
+  const float fine = 1 / 100.0f;
+  const float texel = table.sample(map, {0.3f, 0.4f}, true, fine)[0];
+  EXPECT_TRUE(texel == 0 || texel == 1) << "a texel as it is";
   EXPECT_FALSE(table.hasAlpha[0]);
+}
+
+TEST(Textures, coarseNumbersThatAreNoColourAreMeans) {
+  TextureImage image{256, 256, {}};
+  for (uint32_t i = 0; i < 256 * 256; ++i) {
+    const uint8_t v = i % 2 ? 200 : 56;
+    image.rgba.insert(image.rgba.end(), {v, v, v, 255});
+  }
+  rt::TextureTable table;
+  table.add(image, false);
+  rt::TextureLookup map;
+  map.image = 0;
+  EXPECT_NEAR(table.sample(map, {0.3f, 0.3f}, false, 1 / 64.0f)[0], 128 / 255.0f, 1e-6);
 }
 
 TEST(Render, panesAreAsSmoothAsTheirTexture) {

@@ -83,7 +83,7 @@ Vec3f visibleNormal(const Vec3f& view, float alpha, Vec2f u) {
   return normalized({alpha * n.x, alpha * n.y, std::max(0.0f, n.z)});
 }
 
-int32_t imageIndex(const std::string& path, const TextureSource* source,
+int32_t imageIndex(const std::string& path, const TextureSource* source, bool isColor,
                    std::map<std::string, int32_t>& known, TextureTable& table) {
   if (path.empty() || !source) return -1;
   const auto [at, isNew] = known.try_emplace(path, -1);
@@ -93,7 +93,7 @@ int32_t imageIndex(const std::string& path, const TextureSource* source,
                         image->rgba.size() >= static_cast<size_t>(image->width) * image->height * 4;
     if (usable) {
       at->second = static_cast<int32_t>(table.images.size());
-      table.add(*image);
+      table.add(*image, isColor);
     }
   }
   return at->second;
@@ -158,36 +158,41 @@ class SrgbBytes {
   std::array<float, 255> least_;
 };
 
-/// Means of cells of pixels, as light and written as sRGB again; what is no colour differs by less
-/// than its own texels do.
-TextureImage coarseOf(const TextureImage& image) {
-  const auto cells = [](uint32_t n) { return std::min(n, TextureTable::kCoarse); };
+/// How much less wide a coarser image is.
+constexpr uint32_t kCoarser = 4;
+
+/// Means of cells of pixels, of colours as light and written as sRGB again.
+TextureImage coarserThan(const TextureImage& image, bool isColor) {
+  const auto cells = [](uint32_t n) {
+    return std::max(n / kCoarser, std::min(n, TextureTable::kCoarse));
+  };
   TextureImage out{cells(image.width), cells(image.height), {}};
   out.rgba.reserve(static_cast<size_t>(out.width) * out.height * 4);
-  // Some rows and columns of a cell are as good as all.
-  constexpr uint32_t kMost = 4;
-  const auto part = [](uint32_t cell, uint32_t k, uint32_t of, uint32_t full, uint32_t n) {
-    return static_cast<uint32_t>((static_cast<uint64_t>(cell) * of + k) * full / of / n);
+  const auto begin = [](uint32_t cell, uint32_t full, uint32_t n) {
+    return static_cast<uint32_t>(static_cast<uint64_t>(cell) * full / n);
   };
-  const uint32_t down = std::min(kMost, (image.height + out.height - 1) / out.height);
-  const uint32_t across = std::min(kMost, (image.width + out.width - 1) / out.width);
-  const float share = 1 / static_cast<float>(down * across);
   static const SrgbBytes srgb;
+  const auto& numbers = isColor ? byteTables().decoded : byteTables().plain;
   for (uint32_t y = 0; y < out.height; ++y) {
+    const uint32_t y0 = begin(y, image.height, out.height);
+    const uint32_t y1 = begin(y + 1, image.height, out.height);
     for (uint32_t x = 0; x < out.width; ++x) {
+      const uint32_t x0 = begin(x, image.width, out.width);
+      const uint32_t x1 = begin(x + 1, image.width, out.width);
       float sum[4] = {};
-      for (uint32_t j = 0; j < down; ++j) {
-        const size_t row = part(y, j, down, image.height, out.height);
-        for (uint32_t i = 0; i < across; ++i) {
-          const size_t column = part(x, i, across, image.width, out.width);
-          const uint8_t* const texel = &image.rgba[(row * image.width + column) * 4];
-          for (size_t k = 0; k < 3; ++k) sum[k] += byteTables().decoded[texel[k]];
+      for (uint32_t row = y0; row < y1; ++row) {
+        for (uint32_t column = x0; column < x1; ++column) {
+          const uint8_t* const texel =
+              &image.rgba[(static_cast<size_t>(row) * image.width + column) * 4];
+          for (size_t k = 0; k < 3; ++k) sum[k] += numbers[texel[k]];
           sum[3] += byteTables().plain[texel[3]];
         }
       }
+      const float share = 1 / static_cast<float>((y1 - y0) * (x1 - x0));
       for (size_t k = 0; k < 4; ++k) {
         const float mean = sum[k] * share;
-        out.rgba.push_back(k < 3 ? srgb.of(mean) : static_cast<uint8_t>(255 * mean + 0.5f));
+        out.rgba.push_back(isColor && k < 3 ? srgb.of(mean)
+                                            : static_cast<uint8_t>(255 * mean + 0.5f));
       }
     }
   }
@@ -220,30 +225,38 @@ SurfaceMaterial surfaceOf(const Material& m) {
 
 }  // namespace
 
-void TextureTable::add(const TextureImage& image) {
+void TextureTable::add(const TextureImage& image, bool isColor) {
   images.push_back(&image);
   uint8_t all = 255;
   for (size_t i = 3; i < image.rgba.size(); i += 4) all &= image.rgba[i];
   hasAlpha.push_back(all < 255);
-  coarse.push_back(coarseOf(image));
+  std::vector<TextureImage>& levels = coarser.emplace_back();
+  do {
+    levels.push_back(coarserThan(levels.empty() ? image : levels.back(), isColor));
+  } while (levels.back().width > kCoarse || levels.back().height > kCoarse);
 }
 
-std::array<float, 4> TextureTable::sample(const TextureLookup& map, Vec2f uv, bool decode) const {
-  const TextureImage& image = *images[static_cast<size_t>(map.image)];
-  const float fu = map.uu * uv.x + map.uv * uv.y + map.u0;
-  const float fv = map.vu * uv.x + map.vv * uv.y + map.v0;
+namespace {
+
+/// Where a texture is read, in shares of it.
+Vec2f placeOf(const TextureLookup& map, Vec2f uv) {
+  return {map.uu * uv.x + map.uv * uv.y + map.u0, map.vu * uv.x + map.vv * uv.y + map.v0};
+}
+
+std::array<float, 4> bilinear(const TextureImage& image, Vec2f at, bool decode) {
   const double w = image.width, h = image.height;
+  const double u = at.x, v = at.y;
   // Texel centres lie at halves; v runs up, rows run down.
-  double x = (static_cast<double>(fu) - std::floor(static_cast<double>(fu))) * w - 0.5;
-  double y = (1 - (static_cast<double>(fv) - std::floor(static_cast<double>(fv)))) * h - 0.5;
+  double x = (u - std::floor(u)) * w - 0.5;
+  double y = (1 - (v - std::floor(v))) * h - 0.5;
   if (!std::isfinite(x) || !std::isfinite(y)) x = y = 0;
   const double x0 = std::floor(x), y0 = std::floor(y);
   const float tx = static_cast<float>(x - x0), ty = static_cast<float>(y - y0);
   // From half a texel before the first to half a texel before the end.
-  const auto wrapped = [](double v, uint32_t n) {
-    const auto first = static_cast<int64_t>(v);
-    const auto at = static_cast<uint32_t>(first < 0 ? n - 1 : first);
-    return std::array<uint32_t, 2>{at, at + 1 == n ? 0 : at + 1};
+  const auto wrapped = [](double place, uint32_t n) {
+    const auto first = static_cast<int64_t>(place);
+    const auto cell = static_cast<uint32_t>(first < 0 ? n - 1 : first);
+    return std::array<uint32_t, 2>{cell, cell + 1 == n ? 0 : cell + 1};
   };
   const std::array<uint32_t, 2> xs = wrapped(x0, image.width), ys = wrapped(y0, image.height);
   const ByteTables& tables = byteTables();
@@ -260,21 +273,39 @@ std::array<float, 4> TextureTable::sample(const TextureLookup& map, Vec2f uv, bo
   return sum;
 }
 
-std::array<float, 4> TextureTable::sampleCoarse(const TextureLookup& map, Vec2f uv,
-                                                bool decode) const {
-  const TextureImage& image = coarse[static_cast<size_t>(map.image)];
-  const float fu = map.uu * uv.x + map.uv * uv.y + map.u0;
-  const float fv = map.vu * uv.x + map.vv * uv.y + map.v0;
+std::array<float, 4> nearest(const TextureImage& image, Vec2f at, bool decode) {
   const auto cell = [](float share, uint32_t n) {
-    const float at = share * static_cast<float>(n);
-    return at >= 0 ? std::min(static_cast<uint32_t>(std::min(at, 65535.0f)), n - 1) : 0;
+    const float place = share * static_cast<float>(n);
+    return place >= 0 ? std::min(static_cast<uint32_t>(std::min(place, 65535.0f)), n - 1) : 0;
   };
-  const size_t x = cell(fu - std::floor(fu), image.width);
-  const size_t y = cell(1 - (fv - std::floor(fv)), image.height);
+  const size_t x = cell(at.x - std::floor(at.x), image.width);
+  const size_t y = cell(1 - (at.y - std::floor(at.y)), image.height);
   const uint8_t* const texel = &image.rgba[(y * image.width + x) * 4];
   const ByteTables& tables = byteTables();
   const std::array<float, 256>& colors = decode ? tables.decoded : tables.plain;
   return {colors[texel[0]], colors[texel[1]], colors[texel[2]], tables.plain[texel[3]]};
+}
+
+/// Whether a texel is no wider than that.
+bool isWithin(const TextureImage& image, const TextureLookup& map, float width) {
+  const float across = std::max(std::abs(map.uu), std::abs(map.uv));
+  const float down = std::max(std::abs(map.vu), std::abs(map.vv));
+  return width * across * static_cast<float>(image.width) >= 1 &&
+         width * down * static_cast<float>(image.height) >= 1;
+}
+
+}  // namespace
+
+std::array<float, 4> TextureTable::sample(const TextureLookup& map, Vec2f uv, bool decode,
+                                          float width) const {
+  const size_t i = static_cast<size_t>(map.image);
+  const TextureImage* image = images[i];
+  if (!isWithin(*image, map, width)) return bilinear(*image, placeOf(map, uv), decode);
+  for (const TextureImage& next : coarser[i]) {
+    if (!isWithin(next, map, width)) break;
+    image = &next;
+  }
+  return nearest(*image, placeOf(map, uv), decode);
 }
 
 Vec3f TextureTable::mean(int32_t image) const {
@@ -309,7 +340,7 @@ void makeMaterials(const std::vector<Material>& from, const TextureSource* sourc
       const size_t i = static_cast<size_t>(layer);
       // Others are seen in the shadows that the tracer finds itself.
       if (layer == TextureLayer::Occlusion && !s.laid) continue;
-      const int32_t image = imageIndex(m.maps[i].path, source, known, textures);
+      const int32_t image = imageIndex(m.maps[i].path, source, isColor(layer), known, textures);
       if (image < 0) continue;
       s.maps[i] = lookupOf(m.maps[i], image);
       if (!s.laid) s.uvSets |= static_cast<uint16_t>(1u << i);

@@ -69,19 +69,28 @@ struct SurfaceMaterial {
   std::array<TextureLookup, kTextureLayers> maps;
 };
 
+/// Whether the numbers of such a texture are sRGB.
+constexpr bool isColor(TextureLayer layer) {
+  return layer == TextureLayer::Color || layer == TextureLayer::Dirt ||
+         layer == TextureLayer::Emissive;
+}
+
 struct TextureTable {
   std::vector<const TextureImage*> images;
   /// Whether any texel of the image lets light through.
   std::vector<bool> hasAlpha;
-  /// The same images, kCoarse pixels a side at most, for light that comes from all around.
-  std::vector<TextureImage> coarse;
+  /// The same images, each a quarter as wide as the one before it, the last kCoarse pixels a side
+  /// at most: what is far away has the mean of its texels, and these stay in the processor's cache.
+  std::vector<std::vector<TextureImage>> coarser;
   static constexpr uint32_t kCoarse = 32;
 
-  void add(const TextureImage& image);
-  /// Bilinear, repeating, alpha last; `decode` takes the colours from sRGB to linear light.
-  std::array<float, 4> sample(const TextureLookup& map, Vec2f uv, bool decode) const;
-  /// The same from the coarse image, the nearest texel: it stays in the processor's cache.
-  std::array<float, 4> sampleCoarse(const TextureLookup& map, Vec2f uv, bool decode) const;
+  /// `isColor`: its numbers are sRGB.
+  void add(const TextureImage& image, bool isColor = true);
+  /// Repeating, alpha last; `decode` takes the colours from sRGB to linear light. Of what is as
+  /// wide as `width`, in the unit of `uv`, the nearest texel of the coarsest image whose texels are
+  /// no wider; where all are, bilinear.
+  std::array<float, 4> sample(const TextureLookup& map, Vec2f uv, bool decode,
+                              float width = 0) const;
   /// Of all texels in linear light.
   Vec3f mean(int32_t image) const;
   /// Of all texels, as textures of roughness hold it.

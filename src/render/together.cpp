@@ -53,11 +53,7 @@ class Bundle {
     } else if (!brief_) {
       goOnAlone();
     }
-    for (size_t i = 0; i < starts_.size(); ++i) {
-      for (Vec3f* part : {&results_[i].direct, &results_[i].sun, &results_[i].indirect}) {
-        if (!isFinite(*part)) *part = {};
-      }
-    }
+    for (size_t i = 0; i < starts_.size(); ++i) keepFinite(results_[i]);
   }
 
  private:
@@ -73,7 +69,7 @@ class Bundle {
     lobes_[i] = lobesOf(s, -start.ray.direction);
     PathResult& result = results_[i];
     if (!isPlain(s, lobes_[i])) {
-      result = tracePath(stage_, start.ray, start.x, start.y, start.sample, seed_, brief_);
+      result = goOnFrom(stage_, start, s, distance, seed_, brief_);
       return;
     }
     lit_[count_++] = i;

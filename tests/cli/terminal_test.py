@@ -117,6 +117,8 @@ class Words(Case):
         told = self.ran("generate", "-v", "good.cga", "-o", "a.glb")
         self.assertEqual(re.sub(r"[\d.]+ s", "T", told.stderr), "reading good.cga: T\nderiving: T\nwriting a.glb: T\n")
         self.assertEqual(told.stdout, "hi\n")
+        told = self.ran("render", "-v", "good.cga", "--size", "16x9", "--samples", "1", "-o", "a.png")
+        self.assertRegex(told.stderr, r"^reading good.cga: [\d.]+ s\nderiving: [\d.]+ s\n  drawing textures: ")
         self.ran("generate", "-q", "-v", "good.cga", "-o", "a.glb", status=USAGE)
 
     def testTheVersionTellsWhatItWasBuiltWith(self):
