@@ -49,6 +49,6 @@ class Answer {
 /// That of this run; without --json nobody reads it.
 Answer& answer();
 
-/// Takes the answer, and prints it to the standard output with --json; else, on a terminal, what was
-/// written by a command that has done its work and has said nothing.
+/// Takes the answer, and prints it to the standard output with --json; else, on a terminal, what
+/// was written by a command that has done its work and has said nothing.
 void printAnswer(int status);
