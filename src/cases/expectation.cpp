@@ -388,10 +388,14 @@ std::string checkDiagnostic(const Facts& facts, const Words& words) {
   return describe(*facts.outcome);
 }
 
+// Notes tell how a rule fared, also one of a library: those count that are asked for.
 std::string checkDiagnostics(const Facts& facts, const Words& words) {
   if (words.size() < 2) return kNotUnderstood;
   Words found{"diagnostics"};
-  for (const Diagnostic& m : facts.outcome->diagnostics) found.push_back(m.code);
+  for (const Diagnostic& m : facts.outcome->diagnostics) {
+    const bool isNamed = std::find(words.begin() + 1, words.end(), m.code) != words.end();
+    if (isNamed || m.severity != Diagnostic::Severity::Note) found.push_back(m.code);
+  }
   if (found.size() == 1) found.emplace_back("none");
   return found == words ? "" : describe(*facts.outcome);
 }

@@ -185,6 +185,14 @@ TEST(Expectation, tellsWhatStopsACaseAndNothingElse) {
   Diagnostic unknown;
   unknown.code = "unknown-operation";
   unknown.rendered = "rules.cga:1:1: error";
+  Diagnostic note = unknown;
+  note.severity = Diagnostic::Severity::Note;
+  note.code = "no-room";
+  made.diagnostics = {note};
+  EXPECT_EQ(made.complaints("leaves 7\nprint none\ndiagnostics none"),
+            made.complaints("leaves 7\nprint none\ndiagnostics no-room"));
+  EXPECT_NE(made.complaints("leaves 7\nprint none\ndiagnostics undefined-rule"),
+            made.complaints("leaves 7\nprint none\ndiagnostics none"));
   made.diagnostics = {unknown};
   EXPECT_EQ(made.complaints("leaves 7\nprint none\ndiagnostics none"),
             "0: an error that no statement expects: rules.cga:1:1: error\n");
