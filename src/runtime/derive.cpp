@@ -483,7 +483,8 @@ std::string askingOperation(const Program& program) {
   return {};
 }
 
-// How many shapes had room, and which of them nobody can tell.
+// How many shapes had room, and which of them nobody can tell. A note is for those that are lost:
+// where a block has an 'otherwise', its author knows of them.
 void tellRooms(const Pass& pass, const RoomPlan& rooms, const DeriveShared& shared,
                DeriveResult& result) {
   const std::string asking = askingOperation(shared.program);
@@ -494,14 +495,14 @@ void tellRooms(const Pass& pass, const RoomPlan& rooms, const DeriveShared& shar
     RoomTotal& total = totals[std::string(pool.text(c.group))];
     total.kept += c.kept;
     total.dropped += c.dropped;
-    if (c.dropped == 0 || ++told > kMostDiagnostics) continue;
+    if (c.lost == 0 || ++told > kMostDiagnostics) continue;
     result.diagnostics.add({Severity::Note,
                             "no-room",
                             c.span,
                             asking + ": " + std::to_string(c.dropped) + " of " +
                                 std::to_string(c.kept + c.dropped) + " shapes have no room in '" +
                                 std::string(pool.text(c.group)) + "'",
-                            c.lost > 0 ? "'otherwise' in the block says what becomes of them" : "",
+                            "'otherwise' in the block says what becomes of them",
                             {},
                             {}});
   }
