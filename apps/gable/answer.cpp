@@ -90,11 +90,10 @@ Answer& answer() {
 
 void printAnswer(int status) {
   // Also without --json, so that it does not grow with each run of --watch.
-  const std::string files = answer().filesText();
-  const std::string text = answer().take(status);
-  if (terminal().json) {
-    std::fputs(text.c_str(), stdout);
-  } else if (!hasTold() && status == kExitDone && Progress::isShown()) {
-    std::fputs(files.c_str(), stderr);
+  const bool silent = !hasTold() && !terminal().json;
+  if (silent && status == kExitDone && Progress::isShown()) {
+    std::fputs(answer().filesText().c_str(), stderr);
   }
+  const std::string text = answer().take(status);
+  if (terminal().json) std::fputs(text.c_str(), stdout);
 }

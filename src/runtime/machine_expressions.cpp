@@ -154,11 +154,9 @@ void Machine::ruleAttribute(const Instruction& i) {
       return;
     }
   }
-  if (openAttributes_.isOpen()) {
-    if (const Value* given = openAttributes_.find(seen_, a)) {
-      pushAttribute(a, *given);
-      return;
-    }
+  if (const Value* given = openAttributes_.find(seen_, a)) {
+    pushAttribute(a, *given);
+    return;
   }
   if (seen_->attributes != 0) {
     if (const Value* set = attributes().find(seen_->attributes, a)) {

@@ -127,11 +127,6 @@ uint64_t contentHash(const Scene& scene) {
   return hashCombine(h, hashDouble(scene.geoOrigin.latitude));
 }
 
-uint64_t saturatingAdd(uint64_t a, uint64_t b) {
-  uint64_t sum = 0;
-  return __builtin_add_overflow(a, b, &sum) ? ~uint64_t{0} : sum;
-}
-
 uint64_t saturatingMultiply(uint64_t a, uint64_t b) {
   uint64_t product = 0;
   return __builtin_mul_overflow(a, b, &product) ? ~uint64_t{0} : product;

@@ -41,7 +41,10 @@ uint64_t contentHash(const Scene& scene);
 
 /// Adds and multiplies without wrapping round: a small scene can stand for more leaves than a
 /// number can count.
-uint64_t saturatingAdd(uint64_t a, uint64_t b);
+inline uint64_t saturatingAdd(uint64_t a, uint64_t b) {
+  uint64_t sum = 0;
+  return __builtin_add_overflow(a, b, &sum) ? ~uint64_t{0} : sum;
+}
 uint64_t saturatingMultiply(uint64_t a, uint64_t b);
 
 }  // namespace gable

@@ -28,14 +28,6 @@ struct Tally {
     triangles = saturatingAdd(triangles, t.triangles);
     encoderFaces = saturatingAdd(encoderFaces, t.encoderFaces);
   }
-  /// Of numbers that fit in 32 bits, at most 2^32 times.
-  void addFew(const Tally& t) {
-    leaves += t.leaves;
-    faces += t.faces;
-    vertices += t.vertices;
-    triangles += t.triangles;
-    encoderFaces += t.encoderFaces;
-  }
   Tally times(uint64_t n) const {
     return {saturatingMultiply(leaves, n), saturatingMultiply(faces, n),
             saturatingMultiply(vertices, n), saturatingMultiply(triangles, n),
@@ -135,7 +127,7 @@ Tally measure(const Scene& scene, const Prototype& p, Parts& known) {
   Box3 box;
   for (uint32_t i = 0; i < p.leafCount; ++i) {
     const Leaf& l = scene.leaves[p.firstLeaf + i];
-    own.addFew(known.tallies[l.mesh]);
+    own.add(known.tallies[l.mesh]);
     box.include(widened(placed(known.meshes[l.mesh], l.scale, l.frame)));
   }
   for (uint32_t i = 0; i < p.instanceCount; ++i) {
