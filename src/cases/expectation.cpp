@@ -397,7 +397,9 @@ std::string checkDiagnostics(const Facts& facts, const Words& words) {
     if (isNamed || m.severity != Diagnostic::Severity::Note) found.push_back(m.code);
   }
   if (found.size() == 1) found.emplace_back("none");
-  return found == words ? "" : describe(*facts.outcome);
+  if (found == words) return "";
+  const std::string meant = words.size() == 2 ? didYouMean(words[1], {"none"}) : "";
+  return describe(*facts.outcome) + (meant.empty() ? "" : "; " + meant);
 }
 
 std::string checkDump(const Facts& facts, const Statement& statement) {
@@ -477,7 +479,13 @@ std::string formOf(const Words& words) {
     if (words[0] == word) return "expected: " + words[0] + " " + form;
     all.emplace_back(word);
   }
-  const std::string meant = didYouMean(words[0], all);
+  std::string meant = didYouMean(words[0], all);
+  // "leaf", "overlap": begun like one of them.
+  constexpr size_t kBegun = 3;
+  for (size_t i = 0; meant.empty() && words[0].size() >= kBegun && i < all.size(); ++i) {
+    if (!all[i].starts_with(words[0].substr(0, kBegun))) continue;
+    meant = "did you mean '" + std::string(all[i]) + "'?";
+  }
   return std::string("there is no such statement") + (meant.empty() ? "" : "; " + meant);
 }
 

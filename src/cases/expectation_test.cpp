@@ -167,6 +167,8 @@ TEST(Expectation, saysHowStatementsAreWritten) {
   const Made made;
   const std::pair<const char*, const char*> said[] = {
       {"leafs 2", "did you mean 'leaves'?"},
+      {"leaf 2", "did you mean 'leaves'?"},
+      {"diagnostics non", "did you mean 'none'?"},
       {"leaves Roof four", "expected: leaves [LEAF] NUMBER"},
       {"color Roof red", "expected: color LEAF #rrggbb"},
       {"leaves Rof 1", "there is no leaf 'Rof', did you mean 'Roof'?"},

@@ -8,6 +8,7 @@
 #include "cases/run.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "base/allowance.h"
@@ -79,6 +80,27 @@ std::string writeProject(const Case& c, const std::string& folder) {
     if (!written.ok()) return written.error().message;
   }
   return {};
+}
+
+/// `7`, or whole numbers as `0..19`; empty where it is neither.
+std::vector<double> seedsOf(const std::string& text) {
+  constexpr double kMost = 10'000;
+  const size_t dots = text.find("..");
+  double first = 0, last = 0;
+  if (!parseNumber(text.substr(0, dots), first)) return {};
+  if (dots == std::string::npos) return {first};
+  if (!parseNumber(text.substr(dots + 2), last) || first != std::floor(first) ||
+      last != std::floor(last) || last < first || last - first >= kMost) {
+    return {};
+  }
+  std::vector<double> seeds;
+  for (double seed = first; seed <= last; ++seed) seeds.push_back(seed);
+  return seeds;
+}
+
+/// What a file can hold of one model only.
+bool isOfOneModel(const Statement& s) {
+  return s.words[0] == "dump" || s.words[0] == "scene" || s.words[0] == "picture";
 }
 
 void add(DiagnosticList& all, const DiagnosticList& more) {
@@ -174,11 +196,6 @@ bool CaseRun::readSettings(DeriveSettings& derive) {
   derive.limits.bytes = settings_.limits.bytes;
   derive.limits.seconds = settings_.limits.seconds;
   derive.cancel = settings_.cancel;
-  if (const std::string seed = wordOf(case_, "seed");
-      !seed.empty() && !parseNumber(seed, derive.seed)) {
-    failAt("seed", "'" + seed + "' is not a number");
-    return false;
-  }
   if (const std::string start = wordOf(case_, "start"); !start.empty()) derive.startRule = start;
   if (case_.find("values")) derive.startRule = kValuesRule;
   if (const Section* limits = case_.find("limits")) {
@@ -190,6 +207,24 @@ bool CaseRun::readSettings(DeriveSettings& derive) {
     }
   }
   return readAttributes(derive);
+}
+
+std::optional<std::vector<double>> CaseRun::readSeeds() {
+  const std::string text = wordOf(case_, "seed");
+  if (text.empty()) return std::vector<double>{DeriveSettings().seed};
+  std::vector<double> seeds = seedsOf(text);
+  if (seeds.empty()) {
+    failAt("seed", "'" + text + "' is neither a number nor a range such as 0..19");
+    return std::nullopt;
+  }
+  const Section* expect = case_.find("expect");
+  if (seeds.size() == 1 || !expect) return seeds;
+  for (const Statement& s : statements(*expect)) {
+    if (!isOfOneModel(s)) continue;
+    fail(s.line, s.words[0] + " is of one model, so the case needs a single seed");
+    return std::nullopt;
+  }
+  return seeds;
 }
 
 void CaseRun::runCase() {
@@ -216,31 +251,60 @@ void CaseRun::runCase() {
   if (!shapes) return failAt("shape", kShapeForms);
   DeriveSettings derived;
   if (!readSettings(derived)) return;
-  const Rules loaded = loadRules();
+  const std::optional<std::vector<double>> seeds = readSeeds();
+  if (!seeds) return;
+  const Rules rulesOfCase = loadRules();
   Outcome outcome;
-  outcome.diagnostics = loaded.diagnostics();
+  outcome.diagnostics = rulesOfCase.diagnostics();
   add(outcome.diagnostics, shapes->diagnostics());
-  std::optional<Model> model;
   const Scene nothing;
   outcome.scene = &nothing;
   outcome.golden = &golden_;
-  if (loaded.ok() && shapes->ok()) {
-    model = derive(loaded, *shapes, derived);
-    add(outcome.diagnostics, model->diagnostics());
-    outcome.model = &*model;
-    outcome.scene = &model->impl().result.scene;
-    outcome.dump = dumpText(*outcome.scene);
-    outcome.lot = lotOf(*shapes);
-    outcome.ground = groundOf(*shapes);
-    derived.sharing = false;
-    const Model alone = derive(loaded, *shapes, derived);
-    if (dumpText(alone.impl().result.scene) != outcome.dump) {
-      fail(0, "the model differs when sharing is off");
+  if (!rulesOfCase.ok() || !shapes->ok()) return judge(outcome);
+  outcome.lot = lotOf(*shapes);
+  outcome.ground = groundOf(*shapes);
+  runSeeds(rulesOfCase, *shapes, derived, *seeds, outcome);
+}
+
+void CaseRun::runSeeds(const Rules& rules, const Shapes& shapes, DeriveSettings& derived,
+                       const std::vector<double>& seeds, const Outcome& loaded) {
+  std::vector<CaseFailure> first;
+  double failed = 0, firstSeed = 0;
+  for (const double seed : seeds) {
+    derived.seed = seed;
+    runSeed(rules, shapes, derived, loaded);
+    if (stopped()) return;
+    if (result_.failures.empty()) continue;
+    if (first.empty()) {
+      first = std::move(result_.failures);
+      firstSeed = seed;
     }
-    checkValues(outcome.scene->prints);
+    result_.failures.clear();
+    ++failed;
   }
-  if (stopped()) return;
-  judge(outcome);
+  if (seeds.size() > 1) {
+    const std::string others = failed > 1 ? " and " + shortestText(failed - 1) + " more" : "";
+    for (CaseFailure& f : first) {
+      f.message = "with seed " + shortestText(firstSeed) + others + ": " + f.message;
+    }
+  }
+  result_.failures = std::move(first);
+}
+
+void CaseRun::runSeed(const Rules& rules, const Shapes& shapes, DeriveSettings derived,
+                      Outcome outcome) {
+  const Model model = derive(rules, shapes, derived);
+  add(outcome.diagnostics, model.diagnostics());
+  outcome.model = &model;
+  outcome.scene = &model.impl().result.scene;
+  outcome.dump = dumpText(*outcome.scene);
+  derived.sharing = false;
+  const Model alone = derive(rules, shapes, derived);
+  if (dumpText(alone.impl().result.scene) != outcome.dump) {
+    fail(0, "the model differs when sharing is off");
+  }
+  checkValues(outcome.scene->prints);
+  if (!stopped()) judge(outcome);
 }
 
 void CaseRun::checkValues(const std::vector<std::string>& prints) {

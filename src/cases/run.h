@@ -27,7 +27,8 @@ class CaseRun {
   /// `file` is the test file. All must outlive the run.
   CaseRun(const Case& c, const std::string& file, const CaseSettings& settings);
 
-  /// Derives with and without sharing, and holds the result against the expectations.
+  /// Derives with and without sharing, and holds the result against the expectations; of several
+  /// seeds with each, telling what does not hold with the first of them.
   CaseResult run();
 
   const std::vector<DumpUpdate>& updates() const { return updates_; }
@@ -39,7 +40,12 @@ class CaseRun {
   void fail(size_t line, const std::string& message);
   void failAt(const char* section, const std::string& message);
   void runCase();
+  /// `outcome` has what loading said; the rest of it is of the seed.
+  void runSeeds(const Rules& rules, const Shapes& shapes, DeriveSettings& derived,
+                const std::vector<double>& seeds, const Outcome& loaded);
+  void runSeed(const Rules& rules, const Shapes& shapes, DeriveSettings derived, Outcome outcome);
   Rules loadRules();
+  std::optional<std::vector<double>> readSeeds();
   bool readSettings(DeriveSettings& derive);
   bool readAttributes(DeriveSettings& derive);
   void checkValues(const std::vector<std::string>& prints);

@@ -57,6 +57,17 @@ class Cases(Case):
         self.run_gable("test", "none.test", status=FILE, says="none.test")
         self.run_gable("test", "--format", "html", status=USAGE, says="--format")
 
+    def testACaseHoldsWithEachOfItsSeeds(self):
+        rules = "rule: Lot --> 90% : A. else : B."
+        self.cases(case("some", "leaves 1", rules=rules, more="seed: 0..19\n"))
+        self.run_gable("test", says="1 passed, 0 failed")
+        self.cases(case("all", "leaves A 1", rules=rules, more="seed: 0..59\n"))
+        told = self.run_gable("test", status=WRONG, says="0 passed, 1 failed")
+        found = re.search(r"all: with seed (\d+) and (\d+) more: leaves A 1: found 0", told)
+        self.assertIsNotNone(found, told)
+        self.cases(case("one", "leaves A 1", rules=rules, more=f"seed: {found[1]}\n"))
+        self.run_gable("test", status=WRONG, says="one: leaves A 1: found 0")
+
     def testMistakesOfAFileFailIt(self):
         for text, says in (("== a\nrulez: x\n", ":2: expected a section"), ("", "no case"),
                            ("Lot --> A.\n", "begins with '== name'"),
@@ -65,7 +76,9 @@ class Cases(Case):
                            (case("a", "leaves 1", rules="rules: ../rules/tower.cga\nrule: Lot --> A."), "no place"),
                            (case("a", "leaves 1", shape="lot 3x"), ":3: a: the shape is not understood"),
                            (case("a", "leaves 1", shape="load none.obj"), "none.obj"),
-                           (case("a", "leaves 1", more="seed: x\n"), "'x' is not a number"),
+                           (case("a", "leaves 1", more="seed: x\n"), "'x' is neither a number nor a range"),
+                           (case("a", "leaves 1", more="seed: 9..3\n"), "neither a number nor a range"),
+                           (case("a", "leaves 1", "dump", more="seed: 0..3\n"), "dump is of one model"),
                            (case("a", "leaves 1", more="limits:\n  depth -1\n"), "limit is not understood"),
                            (case("a", "leaves 1", rules="rule: Lot --> A.\nfile ../b.cga: B --> C."), "own folder"),
                            (case("a", "leafs 1"), "did you mean 'leaves'?"), (case("a", "within town"), "expected: within lot"),
