@@ -30,10 +30,13 @@ int runCheck(const CheckArguments& arguments) {
       std::count_if(all.begin(), all.end(), [](const auto& d) { return d.isError(); }));
   print(all, stdout);
   const size_t others = all.size() - errors;
+  const bool warned = std::any_of(all.begin(), all.end(), [](const auto& d) {
+    return d.severity == gable::Diagnostic::Severity::Warning;
+  });
   if (!all.empty()) {
     tell(std::to_string(errors) + (errors == 1 ? " error, " : " errors, ") +
          std::to_string(others) + (others == 1 ? " warning\n" : " warnings\n"));
   }
   if (missing) return kExitFile;
-  return statusOf(all, errors > 0 ? kExitWrong : kExitDone);
+  return statusOf(all, errors > 0 || (arguments.strict && warned) ? kExitWrong : kExitDone);
 }

@@ -38,6 +38,8 @@ struct CheckArguments {
   gable::SearchSettings search;
   /// Print what the rules are compiled to as well.
   bool disassemble = false;
+  /// Warnings end it as mistakes do.
+  bool strict = false;
   LimitArguments limits;
 };
 int runCheck(const CheckArguments& arguments);

@@ -198,6 +198,7 @@ void addCheck(CLI::App& app, CheckArguments& a, int& status) {
   check->add_option("--project", a.project, "The folder that the rules may read from");
   addSearch(check, a.search);
   check->add_option("--dialect", a.dialect, "The rules' notation");
+  check->add_flag("--strict", a.strict, "Exit with status 1 where there are warnings as well");
   check->add_flag("--disassemble", a.disassemble, "List the compiled program as well");
   addLimits(check, a.limits, kFileSeconds);
   check->callback([&a, &status] { status = runCheck(a); });

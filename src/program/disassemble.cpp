@@ -35,7 +35,6 @@ constexpr const char* kNames[] = {"constant",
                                   "operation-constant",
                                   "operand",
                                   "call",
-                                  "call-computed",
                                   "run",
                                   "begin-turns",
                                   "end-turn",
@@ -71,8 +70,8 @@ std::string operandText(const Program& p, const Instruction& i) {
     case Code::Function: return std::string(p.pool->text(p.functions[i.a].name));
     case Code::BuiltinFunction: return p.builtinFunctions[i.a]->name;
     case Code::Operation:
-    case Code::OperationConstant:
-    case Code::ComponentValues: return p.operations[i.a]->name;
+    case Code::OperationConstant: return p.operations[i.a]->name;
+    case Code::ComponentValues: return "block " + std::to_string(i.a);
     case Code::RunRule:
     case Code::CallRule: return p.rules[i.a].qualifiedName;
     case Code::Binary: return std::to_string(i.x);
@@ -114,8 +113,7 @@ std::string disassemble(const Program& p) {
     out += "  " + std::to_string(at) + " " + kNames[static_cast<size_t>(i.code)];
     const std::string operand = operandText(p, i);
     if (!operand.empty()) out += " " + operand;
-    const bool takesBlock = i.code == Code::Operation || i.code == Code::OperationConstant ||
-                            i.code == Code::ComponentValues;
+    const bool takesBlock = i.code == Code::Operation || i.code == Code::OperationConstant;
     if (takesBlock && i.y > 0) out += " block " + std::to_string(i.y - 1);
     out += "\n";
   }

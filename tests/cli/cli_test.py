@@ -113,6 +113,13 @@ class Options(Case):
                     self.run_gable(*command, status=status)
         self.assertTrue((self.folder / "part.obj").exists(), "what was made until then is written")
 
+    def testStrictChecksFailWhereThereAreWarnings(self):
+        self.put("good.cga", "Lot --> extrude(9) X.")
+        self.put("warned.cga", "import walls : \"walls.cga\"\nLot --> extrude(9) Wal")
+        self.run_gable("check", "warned.cga", says="0 errors, 2 warnings")
+        self.run_gable("check", "warned.cga", "--strict", status=WRONG, says="0 errors, 2 warnings")
+        self.run_gable("check", "good.cga", "--strict")
+
     def testTheNotationOfATextIsGuessed(self):
         for name, option in (("gbbg/gbbg.gbbg", "gbbg"), ("park/square.park", "park"), ("progen3d/progen3d.grammar", "progen3d")):
             self.put("x.txt", (ROOT / "examples" / name).read_text())

@@ -205,6 +205,9 @@ class Answers(Case):
         told = self.answer("check", "good.cga", "other.cga", "--disassemble")["disassembly"]
         self.assertEqual([one["file"] for one in told], ["good.cga", "other.cga"])
         self.assertIn("extrude", told[0]["text"])
+        # With all kinds of instructions.
+        town = str(ROOT / "examples/town/town.cga")
+        self.assertIn("component-values", self.run_gable("check", town, "--disassemble"))
         told = self.answer("format", "good.cga", "other.cga", "--stdout")
         self.assertEqual([one["file"] for one in told["texts"]], ["good.cga", "other.cga"])
         self.assertEqual((told["texts"][1]["text"], told["changed"]), ("Lot --> X.\n", []))
