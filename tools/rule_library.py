@@ -28,6 +28,9 @@ Lot --> street.Cafe
 An attribute is set in the import, as in `import setting : "/gable/rules/setting.cga" (lamps = "#ffffff")`, in
 the importing file by an attribute of the same name, or from outside by `--set setting.lamps=...`. An argument in brackets
 may be left out.
+
+What stands, such as trees, people and benches, stands along y of the scope. On a face of `comp(f)` y lies in the face: write
+`alignScopeToAxes(y)` before the call.
 """
 HEADER = re.compile(r"/\*(.*?)\*/", re.S)
 ANNOTATIONS = re.compile(r"^(?:@\w+(?:\([^()]*\))?\s*)+")
