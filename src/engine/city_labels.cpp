@@ -25,7 +25,7 @@ bool givesTags(const Program& program, size_t at) {
 
 // What the code of a rule says itself, and which rules it calls. The code of its blocks lies in it.
 struct RuleContent {
-  bool says = false, callsAny = false;
+  bool says = false;
   std::vector<uint32_t> calls;
 };
 
@@ -34,7 +34,6 @@ RuleContent contentOf(const Program& program, uint32_t begin, uint32_t end) {
   for (uint32_t at = begin; at < end; ++at) {
     const Instruction& i = program.code[at];
     if (i.code == Code::CallRule || i.code == Code::RunRule) out.calls.push_back(i.a);
-    out.callsAny = out.callsAny || i.code == Code::CallComputed;
     out.says = out.says || givesTags(program, at);
   }
   return out;
@@ -92,7 +91,7 @@ std::vector<bool> CityLabels::rulesThatSay() const {
     const auto next = std::upper_bound(entries.begin(), entries.end(), program.rules[r].entry);
     const uint32_t end = next == entries.end() ? static_cast<uint32_t>(program.code.size()) : *next;
     contents.push_back(contentOf(program, program.rules[r].entry, end));
-    says.push_back(contents[r].says || contents[r].callsAny || !labels_[r].empty());
+    says.push_back(contents[r].says || !labels_[r].empty());
   }
   // A rule says what those say that it calls, round by round.
   for (bool changed = true; changed;) {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <set>
+#include <string_view>
 #include <utility>
 
 #include "base/allowance.h"
@@ -327,14 +329,42 @@ std::shared_ptr<const DerivedFrom> fromOf(const Shapes& shapes, DeriveSettings s
 
 }  // namespace
 
+namespace {
+
+bool isReached(const Program& program, const std::string& start) {
+  const int32_t rule = program.findRule(start);
+  return rule < 0 || program.rules[static_cast<size_t>(rule)].reached;
+}
+
+// The rules, or those with more, where what they are to start with is not reached in them.
+std::shared_ptr<const Rules::Impl> startedBy(const Rules& rules, const Shapes::Impl& shapes,
+                                             const DeriveSettings& settings) {
+  const Program& program = rules.impl().program;
+  if (settings.startRule && !isReached(program, *settings.startRule)) return rules.impl().whole();
+  std::set<std::string_view> seen;
+  for (const ShapeFootprint& f : shapes.footprints) {
+    for (const AttributeValue& a : f.attributes) {
+      if (!namesStartRule(a) || !seen.insert(a.values[0].text).second) continue;
+      if (!isReached(program, a.values[0].text)) return rules.impl().whole();
+    }
+  }
+  return rules.shared();
+}
+
+}  // namespace
+
 std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
                                      const DeriveSettings& settings) {
   const double begin = now();
   auto impl = std::make_shared<Model::Impl>();
-  const Rules::Impl& r = rules.impl();
-  if (!r.ok) return impl;
+  if (!rules.impl().ok) return impl;
+  impl->rules = startedBy(rules, shapes.impl(), settings);
+  const Rules::Impl& r = *impl->rules;
   impl->project = r.project;
-  impl->rules = rules.shared();
+  if (!r.ok) {
+    impl->diagnostics = r.diagnostics;
+    return impl;
+  }
   impl->from = fromOf(shapes, settings);
   DeriveOptions options = optionsOf(settings, r, impl->diagnostics);
   if (hasErrors(impl->diagnostics)) return impl;

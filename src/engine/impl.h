@@ -4,8 +4,10 @@
 // What stands behind the public classes. Only the engine sees it.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
@@ -66,6 +68,12 @@ struct Rules::Impl {
   /// Attributes of imported files that no file above declares, overrides or protects, by their own
   /// names: "height" to "house.height".
   std::multimap<std::string, std::string> open;
+  /// These rules with the code of those that are not reached, for starting with one of them; made
+  /// when it is first asked for, of the texts that these were made of.
+  std::shared_ptr<const Impl> whole() const;
+  std::function<std::shared_ptr<const Impl>(const Impl& reached)> readWhole;
+  mutable std::mutex wholeMutex;
+  mutable std::shared_ptr<const Impl> wholeMade;
 };
 
 struct Shapes::Impl {

@@ -245,7 +245,26 @@ std::optional<Error> asOtherFile(const std::string& path) {
 }
 
 std::shared_ptr<const Rules::Impl> parsed(const std::string& text, const Home& home,
-                                          const LoadSettings& settings) {
+                                          const LoadSettings& settings, bool everything = false);
+
+std::function<std::shared_ptr<const Rules::Impl>(const Rules::Impl&)> wholeReader(
+    const Home& home, LoadSettings settings) {
+  settings.before = nullptr;
+  settings.limits.cancel = nullptr;
+  return [home, settings](const Rules::Impl& reached) {
+    LoadSettings again = settings;
+    again.overlay.clear();
+    for (uint32_t f = 1; f < reached.sources.size(); ++f) {
+      again.overlay.emplace_back(reached.sources.path(f), reached.sources.text(f));
+    }
+    const Rules before(std::shared_ptr<const Rules::Impl>(std::shared_ptr<void>(), &reached));
+    again.before = &before;
+    return parsed(std::string(reached.sources.text(0)), home, again, true);
+  };
+}
+
+std::shared_ptr<const Rules::Impl> parsed(const std::string& text, const Home& home,
+                                          const LoadSettings& settings, bool everything) {
   const std::string& path = home.path;
   const double begin = now();
   auto impl = std::make_shared<Rules::Impl>();
@@ -266,7 +285,8 @@ std::shared_ptr<const Rules::Impl> parsed(const std::string& text, const Home& h
       return impl;
     }
   }
-  lang::AnalysisInput input{std::move(tree), name, settings.style.value_or(std::string())};
+  lang::AnalysisInput input{std::move(tree), name, settings.style.value_or(std::string()),
+                            everything};
   const lang::ResolvedProgram resolved = lang::analyse(
       std::move(input), builtinCatalogue(), *impl->pool, &loader, impl->sources, diagnostics);
   diagnostics = inWordsOf(impl->dialect, file, diagnostics, impl->sources, builtinCatalogue());
@@ -276,6 +296,7 @@ std::shared_ptr<const Rules::Impl> parsed(const std::string& text, const Home& h
     impl->program =
         lang::compile(resolved, builtinCatalogue(), impl->pool, impl->sources, diagnostics);
     impl->ok = !diagnostics.hasErrors();
+    if (!everything) impl->readWhole = wholeReader(home, settings);
   }
   diagnostics.sortByPlace();
   impl->diagnostics = listOf(diagnostics, impl->sources);
@@ -288,6 +309,12 @@ Task readingRules(const std::string& path, const LoadSettings& settings) {
 }
 
 }  // namespace
+
+std::shared_ptr<const Rules::Impl> Rules::Impl::whole() const {
+  const std::lock_guard lock(wholeMutex);
+  if (!wholeMade) wholeMade = readWhole(*this);
+  return wholeMade;
+}
 
 RuleText readRuleText(const std::string& path) {
   return guardedResult<RuleText>([&]() -> RuleText {

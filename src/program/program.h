@@ -52,7 +52,6 @@ enum class Code : uint8_t {
   OperationConstant,  // the same with the x arguments at constants[a of the next instruction]
   Operand,            // carries a, and in y the number + 1 of the constant call, 0 for none
   CallRule,           // rules[a] with x arguments
-  CallComputed,       // a rule whose name is computed (a string on the stack)
   RunRule,            // rules[a] with x arguments, on the present shape itself
   BeginTurns,         // pops a number of turns; to a when there is none
   EndTurn,            // to a for the next turn, on when there is none
@@ -222,6 +221,9 @@ struct RuleCode {
   bool needsPrevious = false;
   bool startRule = false;
   bool hidden = false;
+  /// False: it has no code, as no rule of the main file comes to it. Who names it from outside
+  /// needs a program with all rules; see Rules::Impl::whole.
+  bool reached = true;
 };
 
 struct FunctionCode {

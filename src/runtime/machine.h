@@ -183,7 +183,6 @@ class Machine final : public Services, private WorkMeter {
   void becomeRule(const Instruction& i);
   bool enterRule(Activation& a, uint32_t callerDepth, uint32_t callerTrace, const Instruction* at);
   void callRule(const Instruction& i);
-  void callComputed(const Instruction& i);
   void leafInstruction(const Instruction& i);
   void endActivation();
   void resume();

@@ -31,7 +31,6 @@ void Machine::execute() {
       case Code::Operation: operation(i, nullptr); break;
       case Code::OperationConstant: operation(i, program_.constants.data() + (pc_++)->a); break;
       case Code::CallRule: callRule(i); break;
-      case Code::CallComputed: callComputed(i); break;
       case Code::Leaf: leafInstruction(i); break;
       case Code::SetAttribute: setAttribute(i); break;
       case Code::SetBuiltin: {
@@ -162,19 +161,6 @@ void Machine::callRule(const Instruction& i) {
     becomeRule(i);
   else
     beginRule(i.a, i.x, &i, last);
-}
-
-void Machine::callComputed(const Instruction& i) {
-  const Value name = pop();
-  const std::string_view text = pool().text(name.id);
-  const int32_t rule = program_.findRule(text);
-  if (rule >= 0) {
-    beginRule(static_cast<uint32_t>(rule), 0, &i, false);
-    return;
-  }
-  warn("unknown-rule", "there is no rule '" + std::string(text) + "' without parameters", "");
-  ++current().made;
-  makeLeaf(current(), name.id, pcOf(&i));
 }
 
 void Machine::leafInstruction(const Instruction& i) {

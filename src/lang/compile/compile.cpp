@@ -54,13 +54,18 @@ class Compiler {
     code.file = tree.file();
     code.startRule = rule.start || rule.annotations.startRule;
     code.hidden = rule.annotations.hidden;
+    code.reached = rule.reached;
     for (NodeId p : tree.children(paramsOf(tree, rule.node))) {
       code.parameters.push_back({program_.pool->intern(tree.text(p)), ValueType::Null});
     }
     Uses& uses = ruleUses_[rule.id];
-    UnitCompiler compiler = unit(rule.module, uses, rule.qualifiedName);
-    compiler.locals(localsOf(tree, rule.node));
-    compiler.body(bodyOf(tree, rule.node), tree.span(rule.node));
+    if (rule.reached) {
+      UnitCompiler compiler = unit(rule.module, uses, rule.qualifiedName);
+      compiler.locals(localsOf(tree, rule.node));
+      compiler.body(bodyOf(tree, rule.node), tree.span(rule.node));
+    } else {
+      emitter_.emit(Code::End, code.span);
+    }
     code.needsPrevious = (uses.effects & kReadsPrevious) != 0;
     program_.rules.push_back(std::move(code));
   }
@@ -73,9 +78,11 @@ class Compiler {
     code.entry = emitter_.here();
     code.span = nameSpan(tree, f.node);
     code.file = tree.file();
-    UnitCompiler compiler = unit(f.module, functionUses_[f.id], f.qualifiedName);
-    compiler.locals(localsOf(tree, f.node));
-    compiler.expression(bodyOf(tree, f.node));
+    if (f.reached) {
+      UnitCompiler compiler = unit(f.module, functionUses_[f.id], f.qualifiedName);
+      compiler.locals(localsOf(tree, f.node));
+      compiler.expression(bodyOf(tree, f.node));
+    }
     emitter_.emit(Code::Return, code.span);
     program_.functions.push_back(code);
   }

@@ -53,7 +53,7 @@ bool UnitCompiler::constantOf(NodeId node, Value& out) const {
     out = e_.program().pool->selector(t_.text(node));
     return true;
   }
-  out = m_.constants[node];
+  out = m_.constantAt(node);
   return out.type != ValueType::Null;
 }
 

@@ -4,12 +4,16 @@
 // The analysis as a whole: load, declare, infer, report. Types of parameters, functions and
 // attributes depend on each other in circles, so bodies are walked in silent rounds until nothing
 // changes: all of them once, and then those that have looked up what has changed since. Types only
-// ever become known or are left open, which bounds the rounds. One more round walks all, and
-// reports.
+// ever become known or are left open, which bounds the rounds. One more round walks
+// those that have something to report, and reports.
+//
+// Of the modules of one file that share their types, one is walked in these rounds, which tells of
+// mistakes as well; of the others only what the rules of the main file come to, once.
 
 #include "lang/sema/analyse.h"
 
 #include <algorithm>
+#include <array>
 #include <unordered_set>
 #include <utility>
 
@@ -31,8 +35,9 @@ Analysis::Analysis(const Catalogue& catalogue, ValuePool& values, FileLoader* lo
 // Beyond kMostDiagnostics of a kind a reader needs no more, and memory stays bounded.
 void Analysis::error(const char* code, Span span, std::string message, std::string hint) {
   const Meant meant = std::exchange(meant_, {});
-  reported_ = !mute_ && ++errors_ <= kMostDiagnostics;
-  if (mute_) return;
+  const bool mute = isMute();
+  reported_ = !mute && ++errors_ <= kMostDiagnostics;
+  if (mute) return;
   if (reported_) {
     diagnostics_.error(code, span, std::move(message), std::move(hint));
     if (!meant.nearest.empty()) fix(placeOf(meant.name, span), meant.nearest);
@@ -44,7 +49,7 @@ void Analysis::error(const char* code, Span span, std::string message, std::stri
 
 void Analysis::warning(const char* code, Span span, std::string message, std::string hint) {
   const Meant meant = std::exchange(meant_, {});
-  reported_ = !mute_ && ++warnings_ <= kMostDiagnostics;
+  reported_ = !isMute() && ++warnings_ <= kMostDiagnostics;
   if (!reported_) return;
   diagnostics_.warning(code, span, std::move(message), std::move(hint));
   if (!meant.nearest.empty()) fix(placeOf(meant.name, span), meant.nearest);
@@ -75,9 +80,10 @@ Span Analysis::placeOf(std::string_view name, Span span) const {
 
 // --- Definitions ---
 
-void Analysis::openFrame(ModuleId module, NodeId declaration,
+void Analysis::openFrame(size_t unit, ModuleId module, NodeId declaration,
                          const std::vector<ValueType>& paramTypes, const std::vector<bool>& open) {
   body_ = {};
+  body_.unit = unit;
   body_.module = module;
   body_.types = paramTypes;
   body_.open = open;
@@ -112,13 +118,13 @@ void Analysis::walkLocals(NodeId declaration) {
 void Analysis::walkRule(RuleId id) {
   const RuleInfo& r = program_.rules[id];
   const NodeId node = r.node;
-  openFrame(r.module, node, r.paramTypes, openRules_[id]);
+  const RuleId from = originalId(UnitKind::Rule, id);
+  openFrame(beginWalk(UnitKind::Rule, id), r.module, node, r.paramTypes, openRules_[from]);
   body_.rule = id;
-  body_.unit = beginWalk(UnitKind::Rule, id);
   walkLocals(node);
   visitSequence(bodyOf(tree(), node));
   if (!runsInPlace()) reportUnused(bodyOf(tree(), node));
-  openRules_[id] = body_.open;
+  openRules_[from] = body_.open;
   body_.types.resize(body_.paramCount);
   program_.rules[id].paramTypes = body_.types;
 }
@@ -126,12 +132,12 @@ void Analysis::walkRule(RuleId id) {
 void Analysis::walkFunction(FunctionId id) {
   const FunctionInfo& f = program_.functions[id];
   const NodeId node = f.node;
-  openFrame(f.module, node, f.paramTypes, openFunctions_[id]);
-  body_.unit = beginWalk(UnitKind::Function, id);
+  const FunctionId from = originalId(UnitKind::Function, id);
+  openFrame(beginWalk(UnitKind::Function, id), f.module, node, f.paramTypes, openFunctions_[from]);
   walkLocals(node);
   const NodeId value = bodyOf(tree(), node);
   const ValueType type = visit(value, f.result);
-  openFunctions_[id] = body_.open;
+  openFunctions_[from] = body_.open;
   body_.types.resize(body_.paramCount);
   FunctionInfo& after = program_.functions[id];
   after.paramTypes = body_.types;
@@ -143,9 +149,9 @@ void Analysis::walkFunction(FunctionId id) {
 
 void Analysis::walkAttribute(AttributeId id) {
   const NodeId node = program_.attributes[id].node;
-  openFrame(program_.attributes[id].module, node, {}, {});
+  const size_t unit = beginWalk(UnitKind::Attribute, id);
+  openFrame(unit, program_.attributes[id].module, node, {}, {});
   body_.attribute = id;
-  const size_t unit = body_.unit = beginWalk(UnitKind::Attribute, id);
   walkLocals(node);
   const ValueType type = visit(bodyOf(tree(), node));
   AttributeInfo& a = program_.attributes[id];
@@ -173,50 +179,114 @@ size_t Analysis::beginWalk(UnitKind kind, uint32_t id) {
   const size_t unit = unitOf(kind, id);
   if (walked_.size() <= unit) walked_.resize(unit + 1);
   walked_[unit].at = ++steps_;
+  walked_[unit].speaks = false;
   walked_[unit].looked.clear();
   return unit;
 }
 
 // Whether a walk may find more than the last one: what it has looked up has changed since, or types
 // of its own have while it was under way.
-bool Analysis::isDue(UnitKind kind, uint32_t id) const {
-  const size_t unit = unitOf(kind, id);
-  if (unit >= walked_.size() || walked_[unit].at == 0) return true;
+bool Analysis::isDue(size_t unit) const {
+  if (!isWalked(unit)) return true;
   const Walk& last = walked_[unit];
   const auto isNew = [&](size_t u) { return u < walked_.size() && walked_[u].changedAt > last.at; };
-  return isNew(unit) || std::any_of(last.looked.begin(), last.looked.end(), isNew);
+  return isNew(unit) || std::any_of(last.looked.begin(), last.looked.end(),
+                                    [&](size_t u) { return isNew(originalOf(u)); });
 }
 
-void Analysis::round(bool everything) {
-  changed_ = false;
-  const auto isWalked = [&](UnitKind kind, uint32_t id) { return everything || isDue(kind, id); };
+void Analysis::walk(size_t unit) {
+  const auto id = static_cast<uint32_t>(unit / kUnitKinds);
+  switch (static_cast<UnitKind>(unit % kUnitKinds)) {
+    case UnitKind::Rule: walkRule(id); break;
+    case UnitKind::Function: walkFunction(id); break;
+    case UnitKind::Attribute: walkAttribute(id); break;
+  }
+  if (mute_ && walked_[unit].changedAt > walked_[unit].at) spread(unit);
+}
+
+// A round over all that types come from.
+void Analysis::walkOriginals() {
+  const auto walkOne = [&](UnitKind kind, uint32_t id) {
+    const size_t unit = unitOf(kind, id);
+    if (originalOf(unit) == unit && isDue(unit)) walk(unit);
+  };
   // By index: dynamic imports append to all three while they are walked.
-  for (AttributeId i = 0; i < program_.attributes.size(); ++i) {
-    if (isWalked(UnitKind::Attribute, i)) walkAttribute(i);
-  }
-  for (FunctionId i = 0; i < program_.functions.size(); ++i) {
-    if (isWalked(UnitKind::Function, i)) walkFunction(i);
-  }
+  for (AttributeId i = 0; i < program_.attributes.size(); ++i) walkOne(UnitKind::Attribute, i);
+  for (FunctionId i = 0; i < program_.functions.size(); ++i) walkOne(UnitKind::Function, i);
+  for (RuleId i = 0; i < program_.rules.size(); ++i) walkOne(UnitKind::Rule, i);
+}
+
+// Walks what the rules of the main file come to, and what its calls of imports add meanwhile. All
+// attributes have values, so they are reached.
+void Analysis::reach(ModuleId main) {
+  std::vector<bool> seen;
+  std::vector<size_t> open;
+  const auto find = [&](size_t unit) {
+    if (seen.size() <= unit) seen.resize(unit + kUnitKinds);
+    if (seen[unit]) return;
+    seen[unit] = true;
+    open.push_back(unit);
+  };
+  const auto goOn = [&] {
+    while (!open.empty()) {
+      const size_t unit = open.back();
+      open.pop_back();
+      const auto id = static_cast<uint32_t>(unit / kUnitKinds);
+      const auto kind = static_cast<UnitKind>(unit % kUnitKinds);
+      if (kind == UnitKind::Rule) program_.rules[id].reached = true;
+      if (kind == UnitKind::Function) program_.functions[id].reached = true;
+      if (!isWalked(unit)) walk(unit);
+      for (const size_t next : walked_[unit].looked) find(next);
+    }
+  };
   for (RuleId i = 0; i < program_.rules.size(); ++i) {
-    if (isWalked(UnitKind::Rule, i)) walkRule(i);
+    if (everything_ || program_.rules[i].module == main) find(unitOf(UnitKind::Rule, i));
+    goOn();
+  }
+  for (FunctionId i = 0; everything_ && i < program_.functions.size(); ++i) {
+    find(unitOf(UnitKind::Function, i));
+    goOn();
+  }
+  for (AttributeId i = 0; i < program_.attributes.size(); ++i) {
+    find(unitOf(UnitKind::Attribute, i));
+    goOn();
   }
 }
 
-void Analysis::infer() {
+// Walks what has something to report once more; copies have what their originals have.
+void Analysis::speak() {
+  const auto visitOne = [&](UnitKind kind, uint32_t id) {
+    const size_t unit = unitOf(kind, id);
+    if (originalOf(unit) == unit && isWalked(unit) && walked_[unit].speaks) walk(unit);
+  };
+  for (AttributeId i = 0; i < program_.attributes.size(); ++i) visitOne(UnitKind::Attribute, i);
+  for (FunctionId i = 0; i < program_.functions.size(); ++i) visitOne(UnitKind::Function, i);
+  for (RuleId i = 0; i < program_.rules.size(); ++i) visitOne(UnitKind::Rule, i);
+}
+
+void Analysis::infer(ModuleId main) {
   // Each round that goes on settles at least one type; real programs need three or four.
   constexpr int kRounds = 20;
   mute_ = true;
   walked_.clear();
+  const auto sizes = [&] {
+    return std::array{program_.attributes.size(), program_.functions.size(), program_.rules.size()};
+  };
   for (int i = 0; i < kRounds; ++i) {
-    const size_t attributes = program_.attributes.size(), functions = program_.functions.size();
-    round(false);
-    // What a rule has added to these was behind those that were walked.
-    const bool same =
-        program_.attributes.size() == attributes && program_.functions.size() == functions;
-    if (!changed_ && same) break;
+    const auto before = sizes();
+    changed_ = false;
+    walkOriginals();
+    if (!changed_) reach(main);
+    if (!changed_ && sizes() == before) break;
   }
+  // The last round may have been one too few, for what is made to be misleading.
+  reach(main);
   mute_ = false;
-  round(true);
+  speak();
+  if (!tooManyAt_) return;
+  error("too-many-imports", *tooManyAt_, "the imports unfold to too many uses of files",
+        "import less, or less often");
+  tooManyAt_.reset();
 }
 
 // --- Duplicates, which types decide ---
@@ -307,7 +377,7 @@ void Analysis::checkOtherStyles() {
     const size_t dynamics = program_.dynamicImports.size();
     const ModuleId main = addModule(0, "", style.name, kNone, kNoNode, false);
     addImports(main);
-    infer();
+    infer(main);
     reportDuplicates(main);
     checkWrittenValues(main);
     checkEndlessRules(main);
@@ -323,6 +393,11 @@ void Analysis::checkOtherStyles() {
     };
     drop(dynamicModules_, [&](const auto& e) { return e.first.first >= modules; });
     drop(ownValues_, [&](const auto& e) { return e.first >= attributes; });
+    drop(originals_, [&](const auto& e) { return e.second >= modules; });
+    drop(copies_, [&](const auto& e) { return e.first >= modules; });
+    for (auto& [original, copies] : copies_) {
+      std::erase_if(copies, [&](ModuleId m) { return m >= modules; });
+    }
     drop(openRules_, [&](const auto& e) { return e.first >= rules; });
     drop(openFunctions_, [&](const auto& e) { return e.first >= functions; });
     // A style may extend all the others.
@@ -393,6 +468,7 @@ ResolvedProgram Analysis::run(AnalysisInput input) {
   std::vector<uint32_t> open;
   loadImports(0, open);
 
+  everything_ = input.everything;
   std::string style = chooseStyles(input.style);
   const std::vector<StyleInfo>& styles = units_[0].styles;
   if (std::none_of(styles.begin(), styles.end(),
@@ -409,7 +485,7 @@ ResolvedProgram Analysis::run(AnalysisInput input) {
   }
   addModule(0, "", style, kNone, kNoNode, false);
   addImports(0);
-  infer();
+  infer(0);
   reportDuplicates(0);
   reportOverrideTypes();
   orderAttributes();

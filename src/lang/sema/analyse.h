@@ -57,6 +57,8 @@ struct AnalysisInput {
   std::string path;
   /// The style to derive; "" and "Default" are the same.
   std::string style;
+  /// All rules of all modules count as reached; see ResolvedProgram.
+  bool everything = false;
 };
 
 /// `loader` may be null: imports are then reported as missing. Texts of imported files are added to

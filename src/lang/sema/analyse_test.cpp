@@ -547,7 +547,7 @@ TEST(Analyse, constantsAreFolded) {
       "attr n = rand(1) attr z = 1 / 0");
   EXPECT_CLEAN(a);
   const auto constant = [&](const char* name) {
-    return a.program.modules[0].constants[a.attribute(name).valueNode];
+    return a.program.modules[0].constantAt(a.attribute(name).valueNode);
   };
   EXPECT_EQ(constant("w").number, 13);
   EXPECT_EQ(constant("v").number, 6.5);

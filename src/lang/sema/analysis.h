@@ -44,6 +44,8 @@ struct Scope {
   /// Rules that the importer puts in the place of ours.
   std::unordered_map<std::string_view, std::vector<RuleId>> replaced;
   std::vector<RuleId> startRules;
+  /// No rule is put in the place of one of ours, or of our imports'.
+  bool plain = false;
 };
 
 /// A declaration with the section of the file it stands in.
@@ -149,6 +151,9 @@ class Analysis {
   static void inheritAnnotations(AttributeInfo& a, const Tree& t,
                                  const RankedDeclarations& declarations);
   void addImports(ModuleId module);
+  void checkOverrides(ModuleId module, NodeId overrides);
+  bool isOpenAttribute(ModuleId module, std::string_view name) const;
+  void reportNoAttribute(ModuleId module, Span span, std::string_view name);
   void bindOverrides(ModuleId module, NodeId overrides, bool dynamic);
   void bindRuleOverride(ModuleId module, NodeId rule, ModuleId owner);
   void propagateAttributes(ModuleId module, NodeId overrides);
@@ -279,8 +284,6 @@ class Analysis {
 
   // --- successors.cpp ---
   void visitSequence(NodeId node);
-  void reportUnused(NodeId sequence);
-  bool runsInPlace();
   void visitSuccessor(NodeId node);
   void visitApply(NodeId node);
   void visitOperation(NodeId node, const OpSpec& op);
@@ -307,6 +310,12 @@ class Analysis {
   /// The operation whose name `name` is a slip of; empty when there is none.
   std::string_view slippedOperation(NodeId node);
   void checkWeights(NodeId choice);
+
+  // --- unused.cpp: what a sequence does in vain ---
+  void reportUnused(NodeId sequence);
+  bool runsInPlace();
+  std::string tintedCall(NodeId material, NodeId color) const;
+  void reportLostColors(NodeId sequence);
 
   // --- parts.cpp: named parts of blocks, and the figures that they begin with ---
   void reportSelector(NodeId node, const OpSpec* op);
@@ -351,24 +360,44 @@ class Analysis {
   void walkRule(RuleId id);
   void walkFunction(FunctionId id);
   void walkAttribute(AttributeId id);
-  void openFrame(ModuleId module, NodeId declaration, const std::vector<ValueType>& paramTypes,
-                 const std::vector<bool>& open);
+  void openFrame(size_t unit, ModuleId module, NodeId declaration,
+                 const std::vector<ValueType>& paramTypes, const std::vector<bool>& open);
   void walkLocals(NodeId declaration);
   /// Rules, functions and attributes, in one row of numbers.
   enum class UnitKind : uint8_t { Rule, Function, Attribute };
+  static constexpr size_t kUnitKinds = 3;
   static size_t unitOf(UnitKind kind, uint32_t id) {
-    return size_t{id} * 3 + static_cast<size_t>(kind);
+    return size_t{id} * kUnitKinds + static_cast<size_t>(kind);
   }
+  void walk(size_t unit);
+  // --- originals.cpp: types that modules of one file share ---
+  void chooseOriginal(ModuleId module);
+  void copyType(UnitKind kind, uint32_t id, ModuleId to);
+  void spread(size_t unit);
+  bool isDeclaration(UnitKind kind, uint32_t id, ModuleId module) const;
+  size_t originalOf(size_t unit) const;
+  uint32_t originalId(UnitKind kind, uint32_t id) const {
+    return static_cast<uint32_t>(originalOf(unitOf(kind, id)) / kUnitKinds);
+  }
+
   /// Gives its number.
   size_t beginWalk(UnitKind kind, uint32_t id);
-  bool isDue(UnitKind kind, uint32_t id) const;
-  /// The body that is walked depends on the types of that one.
+  bool isDue(size_t unit) const;
+  bool isWalked(size_t unit) const { return unit < walked_.size() && walked_[unit].at > 0; }
+  /// The body that is walked comes to that one, and depends on its types.
   void look(UnitKind kind, uint32_t id) const {
     if (body_.unit != kNoUnit) walked_[body_.unit].looked.push_back(unitOf(kind, id));
   }
-  void round(bool everything);
+  void walkOriginals();
+  void reach(ModuleId main);
+  void speak();
+  /// Whether reports are kept for the last round, which walks the body again if there are any.
+  bool isMute() {
+    if (mute_ && body_.unit != kNoUnit) walked_[body_.unit].speaks = true;
+    return mute_;
+  }
   void settle();
-  void infer();
+  void infer(ModuleId main);
   template <class Info>
   void reportOverloads(const std::vector<std::vector<uint32_t>>& sets,
                        const std::vector<Info>& infos, const char* code);
@@ -411,7 +440,7 @@ class Analysis {
   template <class Names>
   std::string near(std::string_view name, Names names) {
     constexpr int kMaxHints = 200;
-    if (mute_ || hints_ >= kMaxHints) return {};
+    if (isMute() || hints_ >= kMaxHints) return {};
     ++hints_;
     meant_ = {name, nearestName(name, names())};
     return meant_.nearest.empty() ? std::string() : "did you mean '" + meant_.nearest + "'?";
@@ -460,15 +489,23 @@ class Analysis {
   /// The words that may stand for the name at work, beside values.
   std::vector<std::string_view> wordsHere_;
   bool changed_ = false;
-  /// By unit: when it was walked last and when its types changed last, in steps, and what the walk
-  /// has looked up.
+  /// By unit: when it was walked last and when its types changed last, in steps, what the walk has
+  /// looked up, and whether it had something to report.
   struct Walk {
     uint64_t at = 0, changedAt = 0;
+    bool speaks = false;
     std::vector<size_t> looked;
   };
   /// Look-ups change what they do not give.
   mutable std::vector<Walk> walked_;
   uint64_t steps_ = 0;
+  bool everything_ = false;
+  /// The first import that was one too many: rounds make modules, and are silent.
+  std::optional<Span> tooManyAt_;
+  /// By style, file and the originals of the imports.
+  std::map<std::pair<std::string, std::vector<uint32_t>>, ModuleId> originals_;
+  /// By original.
+  std::map<ModuleId, std::vector<ModuleId>> copies_;
   int hints_ = 0;
   size_t errors_ = 0;
   size_t warnings_ = 0;

@@ -101,10 +101,10 @@ std::string Analysis::bundledFile(std::string_view path, const std::string& from
 }
 
 void Analysis::checkMaterial(NodeId node) {
-  if (mute_ || !loader_) return;
+  if (!loader_ || module().original != module().id) return;
   const NodeId written = writtenText(node);
   // Nothing is written yet.
-  if (written == kNoNode || text(written).empty()) return;
+  if (written == kNoNode || text(written).empty() || isMute()) return;
   const std::string name(text(written)), file = "materials/" + name + "/material.mtl";
   const std::string& from = program_.units[module().unit].path;
   if (loader_->exists("builtin:" + file, from) || loader_->exists(file, from)) return;
@@ -114,9 +114,9 @@ void Analysis::checkMaterial(NodeId node) {
 }
 
 void Analysis::checkFile(NodeId node) {
-  if (mute_ || !loader_) return;
+  if (!loader_ || module().original != module().id) return;
   const NodeId written = writtenText(node);
-  if (written == kNoNode || text(written).empty()) return;
+  if (written == kNoNode || text(written).empty() || isMute()) return;
   const std::string path(text(written));
   const std::string& from = program_.units[module().unit].path;
   if (loader_->exists(path, from) || asksForFile(node, path)) return;

@@ -32,7 +32,7 @@ void Analysis::checkDefault(NodeId node, const AttributeInfo& a) {
     }
     return;
   }
-  const Value v = module().constants[node];
+  const Value v = module().constantAt(node);
   if (v.type == ValueType::Null) return;
   const Annotations& notes = a.annotations;
   const std::string value = spelled(v, values_);

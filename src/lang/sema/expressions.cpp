@@ -162,7 +162,7 @@ ValueType Analysis::visitName(NodeId node, ValueType expected) {
 }
 
 void Analysis::reportUnknownName(NodeId node) {
-  if (mute_) return;
+  if (isMute()) return;
   const std::string_view name = text(node);
   if (inMissingImport(body_.module, name)) return;
   const std::vector<FunctionId> overloads = functionsNamed(body_.module, name);
@@ -488,7 +488,7 @@ void Analysis::checkIndex(NodeId node) {
     if (!a.constant || a.source != ValueSource::Own || a.valueModule != body_.module) return;
     array = a.valueNode;
   }
-  if (mute_ || t.kind(array) != NodeKind::Array) return;
+  if (t.kind(array) != NodeKind::Array || isMute()) return;
   const std::span<const NodeId> rows = t.children(array);
   size_t values = 0;
   for (const NodeId row : rows) {

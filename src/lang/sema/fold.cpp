@@ -41,7 +41,7 @@ Value foldNumbers(BinaryOp op, double a, double b) {
 }  // namespace
 
 Value Analysis::foldNode(const Module& m, const Tree& t, NodeId node) {
-  const auto valueOf = [&](size_t child) { return m.constants[t.child(node, child)]; };
+  const auto valueOf = [&](size_t child) { return m.constantAt(t.child(node, child)); };
   switch (t.kind(node)) {
     case NodeKind::Number: return Value::of(t.number(node));
     case NodeKind::Bool: return Value::of(t.number(node) != 0);
@@ -51,7 +51,7 @@ Value Analysis::foldNode(const Module& m, const Tree& t, NodeId node) {
       if (r.kind != RefKind::Attribute) return {};
       const AttributeInfo& a = program_.attributes[r.index];
       if (!a.constant || a.source != ValueSource::Own || a.slotCount > 0) return {};
-      return program_.modules[a.valueModule].constants[a.valueNode];
+      return program_.modules[a.valueModule].constantAt(a.valueNode);
     }
     case NodeKind::Unary:
       if (t.has(node, kFlagElementwise)) return {};
@@ -81,10 +81,10 @@ void Analysis::foldModule(ModuleId id, bool& changed) {
   const Tree& t = program_.tree(id);
   for (NodeId node = 1; node < t.size(); ++node) {
     Module& m = program_.modules[id];
-    if (m.constants[node].type != ValueType::Null) continue;
+    if (m.constantAt(node).type != ValueType::Null) continue;
     const Value v = foldNode(m, t, node);
     if (v.type == ValueType::Null) continue;
-    m.constants[node] = v;
+    (*m.constants)[node] = v;
     changed = true;
   }
 }
@@ -92,10 +92,18 @@ void Analysis::foldModule(ModuleId id, bool& changed) {
 void Analysis::foldConstants() {
   // Chains of constants longer than this stay unfolded, which costs only speed.
   constexpr int kPasses = 8;
+  for (Module& m : program_.modules) {
+    if (m.original == m.id && !m.constants) {
+      m.constants = std::make_shared<std::vector<Value>>(m.types.size());
+    }
+  }
+  for (Module& m : program_.modules) m.constants = program_.modules[m.original].constants;
   bool changed = true;
   for (int pass = 0; pass < kPasses && changed; ++pass) {
     changed = false;
-    for (ModuleId m = 0; m < program_.modules.size(); ++m) foldModule(m, changed);
+    for (const Module& m : program_.modules) {
+      if (m.original == m.id) foldModule(m.id, changed);
+    }
   }
 }
 

@@ -279,11 +279,11 @@ ModuleId Analysis::addModule(uint32_t unit, std::string path, std::string style,
   m.importer = importer;
   m.importNode = importNode;
   m.dynamic = dynamic;
+  m.original = id;
   const size_t nodes = program_.units[unit].tree.size();
   nodes_ += nodes;
   m.resolutions.resize(nodes);
   m.types.resize(nodes, ValueType::Null);
-  m.constants.resize(nodes);
   program_.modules.push_back(std::move(m));
   scopes_.emplace_back();
   declareAll(id);
@@ -294,9 +294,20 @@ void Analysis::declareAll(ModuleId module) {
   work();
   const Module& m = program_.modules[module];
   const StyleRanks ranks(styleChain(m.unit, m.style));
+  const auto first = [](const auto& all) { return static_cast<uint32_t>(all.size()); };
+  const RuleId rule = first(program_.rules);
+  const FunctionId function = first(program_.functions);
+  const AttributeId attribute = first(program_.attributes);
   declareAttributes(module, ranks);
   declareFunctions(module, ranks);
   declareRules(module, ranks);
+  Module& made = program_.modules[module];
+  made.firstRule = rule;
+  made.firstFunction = function;
+  made.firstAttribute = attribute;
+  made.ruleCount = first(program_.rules) - rule;
+  made.functionCount = first(program_.functions) - function;
+  made.attributeCount = first(program_.attributes) - attribute;
 }
 
 RuleId Analysis::addRule(ModuleId owner, NodeId node, std::string name, const Annotations& notes) {
@@ -523,8 +534,7 @@ void Analysis::addImports(ModuleId module) {
     if (target == importedUnit_.end()) continue;
     const Tree& t = program_.tree(module);
     if (tooManyModules(target->second)) {
-      error("too-many-imports", nameSpan(t, import), "the imports unfold to too many uses of files",
-            "import less, or less often");
+      tooManyAt_ = tooManyAt_.value_or(nameSpan(t, import));
       return;
     }
     const std::string_view name = t.text(import);
@@ -533,10 +543,12 @@ void Analysis::addImports(ModuleId module) {
                                      program_.modules[module].dynamic);
     scopes_[module].imports[name] = child;
     const NodeId overrides = program_.tree(module).child(import, 3);
+    checkOverrides(child, overrides);
     bindOverrides(child, overrides, false);
     propagateAttributes(child, overrides);
     addImports(child);
   }
+  chooseOriginal(module);
 }
 
 void Analysis::bindRuleOverride(ModuleId module, NodeId rule, ModuleId owner) {
@@ -563,7 +575,48 @@ void Analysis::bindRuleOverride(ModuleId module, NodeId rule, ModuleId owner) {
   list.insert(list.begin(), id);
 }
 
-// The list behind an import's path, or the arguments of a dynamic import.
+// What the list behind an import's path, or in the brackets of a call, names in vain.
+void Analysis::checkOverrides(ModuleId module, NodeId overrides) {
+  const ModuleId owner = program_.modules[module].importer;
+  const Tree& t = program_.tree(owner);
+  std::unordered_set<std::string_view> seen;
+  for (const NodeId item : t.children(overrides)) {
+    if (t.kind(item) == NodeKind::Rule) continue;
+    const std::string_view name = t.text(item);
+    if (!isOpenAttribute(module, name)) {
+      reportNoAttribute(module, nameSpan(t, item), name);
+    } else if (!seen.insert(name).second) {
+      error("duplicate-override", nameSpan(t, item), quote(name) + " stands here twice",
+            "remove one of the two");
+    }
+  }
+}
+
+bool Analysis::isOpenAttribute(ModuleId module, std::string_view name) const {
+  const auto at = scopes_[module].attributes.find(name);
+  return at != scopes_[module].attributes.end() && !program_.attributes[at->second].constant;
+}
+
+void Analysis::reportNoAttribute(ModuleId module, Span span, std::string_view name) {
+  constexpr double kOverridesChecked = 2023.0;
+  std::string message = "the imported file has no attribute " + quote(name);
+  std::string hint = near(name, [&] {
+    std::vector<std::string_view> names;
+    for (const auto& [n, id] : scopes_[module].attributes) {
+      if (!program_.attributes[id].constant) names.push_back(n);
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+  });
+  if (isBefore(kOverridesChecked, program_.modules[module].importer)) {
+    warning("unknown-attribute", span, std::move(message), std::move(hint));
+  } else {
+    error("unknown-attribute", span, std::move(message), std::move(hint));
+  }
+}
+
+// The list behind an import's path, or the arguments of a dynamic import. Of an attribute that
+// stands there twice the first value counts.
 void Analysis::bindOverrides(ModuleId module, NodeId overrides, bool dynamic) {
   const ModuleId owner = program_.modules[module].importer;
   const Tree& t = program_.tree(owner);
@@ -583,31 +636,9 @@ void Analysis::bindOverrides(ModuleId module, NodeId overrides, bool dynamic) {
       bindRuleOverride(module, item, owner);
       continue;
     }
-    const auto at = scopes_[module].attributes.find(name);
-    if (at == scopes_[module].attributes.end() || program_.attributes[at->second].constant) {
-      std::vector<std::string_view> names;
-      for (const auto& [n, id] : scopes_[module].attributes) {
-        if (!program_.attributes[id].constant) names.push_back(n);
-      }
-      std::sort(names.begin(), names.end());
-      constexpr double kOverridesChecked = 2023.0;
-      const Span span = nameSpan(t, item);
-      std::string message = "the imported file has no attribute " + quote(name);
-      std::string hint = near(name, [&] { return names; });
-      if (isBefore(kOverridesChecked, owner)) {
-        warning("unknown-attribute", span, std::move(message), std::move(hint));
-      } else {
-        error("unknown-attribute", span, std::move(message), std::move(hint));
-      }
-      continue;
-    }
-    if (!seen.insert(name).second) {
-      error("duplicate-override", nameSpan(t, item), quote(name) + " stands here twice",
-            "remove one of the two");
-      continue;
-    }
     if (t.kind(item) != NodeKind::NamedArg) continue;
-    AttributeInfo& a = program_.attributes[at->second];
+    if (!isOpenAttribute(module, name) || !seen.insert(name).second) continue;
+    AttributeInfo& a = program_.attributes[scopes_[module].attributes.at(name)];
     a.source = dynamic ? ValueSource::Given : ValueSource::Override;
     a.valueModule = owner;
     a.valueNode = t.child(item, 0);
@@ -653,8 +684,7 @@ ModuleId Analysis::dynamicModule(ModuleId module, NodeId node) {
   ModuleId made = kNone;
   if (fixed != scopes_[module].imports.end() &&
       tooManyModules(program_.modules[fixed->second].unit)) {
-    error("too-many-imports", nameSpan(t, node), "the imports unfold to too many uses of files",
-          "import less, or less often");
+    tooManyAt_ = tooManyAt_.value_or(nameSpan(t, node));
   } else if (fixed != scopes_[module].imports.end()) {
     const Module& origin = program_.modules[fixed->second];
     const NodeId overrides = t.child(origin.importNode, 3);

@@ -175,7 +175,7 @@ const OpSpec* Analysis::figureOf(ModuleId module, NodeId sequence, int depth) co
 
 // junction : Plaza, with Plaza --> circle(3) ..: the operation sees no figure here, and makes none.
 void Analysis::checkFigure(NodeId item, const OpSpec& op) {
-  if (mute_ || !op.figureWords) return;
+  if (!op.figureWords || isMute()) return;
   const Tree& t = tree();
   const NodeId head = t.child(item, 0), body = t.child(item, 2);
   const std::string_view word = head == kNoNode ? "" : t.text(head);

@@ -13,6 +13,8 @@
 // ImportApply and ImportCall node. Attributes are evaluated in `initOrder` before the start rule.
 //
 // Promises, when no error was reported:
+//  0. Rules and functions that are not `reached` may have no resolutions: no rule of the main
+//     file comes to them.
 //  1. Every Name, Call, Apply, ImportApply and ImportCall in a body has a resolution other than
 //  None;
 //     names that are no expression (parameters, protected names, annotations) have none.
@@ -106,17 +108,28 @@ struct Module {
   /// The Import node, or for a dynamic import the ImportApply or ImportCall node, in the importer.
   NodeId importNode = kNoNode;
   bool dynamic = false;
+  /// The first module of its file and style, with the same in its imports, whose types and
+  /// constants are those of this one; itself where rules are put in the place of its own, or of an
+  /// import's.
+  ModuleId original = 0;
+  /// Its declarations, numbered in a row; an original and its copies have as many.
+  RuleId firstRule = 0;
+  FunctionId firstFunction = 0;
+  AttributeId firstAttribute = 0;
+  uint32_t ruleCount = 0, functionCount = 0, attributeCount = 0;
   /// By node id; nodes without meaning have RefKind::None.
   std::vector<Resolution> resolutions;
   /// By node id: the type of an expression; Null when it is known only at run time.
   std::vector<ValueType> types;
   /// By node id: the value of a constant expression (number, bool or string); Null if it is none.
-  std::vector<Value> constants;
+  /// Copies have those of the original.
+  std::shared_ptr<std::vector<Value>> constants;
   /// Of calls with named arguments and of the terms of selections, by node id: for each parameter
   /// of the signature its argument; kNoNode where the default counts.
   std::unordered_map<NodeId, std::vector<NodeId>> namedArguments;
 
   const Resolution& at(NodeId node) const { return resolutions[node]; }
+  const Value& constantAt(NodeId node) const { return (*constants)[node]; }
 };
 
 struct RuleInfo {
@@ -138,6 +151,8 @@ struct RuleInfo {
   uint32_t slotCount = 0;
   bool start = false;
   bool extension = false;
+  /// Whether a rule of the main file comes to it.
+  bool reached = false;
   Annotations annotations;
 };
 
@@ -152,6 +167,8 @@ struct FunctionInfo {
   std::vector<ValueType> paramTypes;
   uint32_t slotCount = 0;
   ValueType result = ValueType::Null;
+  /// As for a rule.
+  bool reached = false;
 };
 
 /// Where the value of an attribute comes from when no shape brings its own.

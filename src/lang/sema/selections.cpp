@@ -60,7 +60,7 @@ void Analysis::visitSelection(NodeId node, const ParamSpec& param) {
 bool Analysis::reportOldCall(NodeId node, std::span<const NodeId> args) {
   if (!isOldRegionCall(tree(), node)) return false;
   visitLoosely(args);
-  if (mute_) return true;
+  if (isMute()) return true;
   const Span span = tree().span(node);
   const std::string_view source = sources_.text(tree().file());
   const std::vector<TextEdit> edits = modernRegionCall(tree(), node, source);

@@ -51,58 +51,7 @@ std::string_view shortNameOf(std::string_view name) {
 void Analysis::visitSequence(NodeId node) {
   if (node == kNoNode) return;
   for (const NodeId s : tree().children(node)) visitSuccessor(s);
-}
-
-// Whether a rule somewhere is run in place, so that what follows its calls is not lost.
-bool Analysis::runsInPlace() {
-  if (inPlace_) return *inPlace_;
-  inPlace_ = std::any_of(program_.units.begin(), program_.units.end(), [&](const Unit& unit) {
-    for (NodeId n = 1; n < unit.tree.size(); ++n) {
-      work();
-      if (unit.tree.kind(n) == NodeKind::Apply && unit.tree.text(n) == "do") return true;
-    }
-    return false;
-  });
-  return *inPlace_;
-}
-
-// Operations behind the last rule, leaf or division of a sequence change a shape that becomes
-// nothing.
-void Analysis::reportUnused(NodeId sequence) {
-  if (sequence == kNoNode) return;
-  constexpr uint32_t kTells = kReports | kLabels | kAsksForRoom;
-  const Module& module = program_.modules[body_.module];
-  NodeId made = kNoNode, unused = kNoNode;
-  for (const NodeId s : tree().children(sequence)) {
-    const NodeKind kind = tree().kind(s);
-    const Resolution& means = module.at(s);
-    if (kind == NodeKind::Push) reportUnused(tree().child(s, 0));
-    if (kind == NodeKind::Choice) {
-      for (const NodeId branch : tree().children(s)) reportUnused(tree().child(branch, 1));
-    }
-    if (kind == NodeKind::Apply && means.kind == RefKind::Operation) {
-      const OpSpec& op = *means.spec.operation;
-      // NIL says that nothing is to become of it.
-      const bool changes =
-          op.block == BlockKind::None && (op.effects & kTells) == 0 && text(s) != "NIL";
-      // What divides a shape leaves nothing of it, unless it waits for its parts.
-      const bool divides =
-          (op.block == BlockKind::Split || op.block == BlockKind::Selectors) && !op.gathered;
-      if (changes && made != kNoNode && unused == kNoNode) unused = s;
-      if (!changes) made = divides ? s : kNoNode, unused = kNoNode;
-    } else {
-      // A name without a meaning has its own message.
-      const bool leaf = means.kind == RefKind::Leaf && tree().has(s, kFlagTerminal);
-      const bool ends = means.kind == RefKind::Rule || leaf;
-      made = ends ? s : kNoNode;
-      unused = kNoNode;
-    }
-  }
-  if (unused == kNoNode) return;
-  warning("unused-operation", nameSpan(tree(), unused),
-          quote(text(unused)) + " stands behind " + quote(text(made)) +
-              " and changes a shape that nothing is made of",
-          "write it before " + quote(text(made)) + ", or in the rule of what it is for");
+  reportLostColors(node);
 }
 
 void Analysis::visitSuccessor(NodeId node) {
@@ -211,7 +160,7 @@ std::string_view Analysis::slippedOperation(NodeId node) {
 }
 
 void Analysis::reportUndefinedRule(NodeId node, const RuleSet& found) {
-  if (mute_ || (node == headless_ && node != kNoNode)) return;
+  if ((node == headless_ && node != kNoNode) || isMute()) return;
   const std::string_view name = text(node);
   const Span span = nameSpan(tree(), node);
   if (!found.rules.empty()) {
@@ -408,6 +357,7 @@ void Analysis::visitImportCall(NodeId node, bool successor) {
   }
   const ModuleId target = dynamicModule(body_.module, node);
   if (target == kNone) return makeLeaf(node, true);
+  checkOverrides(target, t.child(node, 1));
   const RuleSet found = rulesNamed(target, t.text(node));
   if (applyRule(node, found.rules, args, types)) return;
   makeLeaf(node, true);
@@ -424,8 +374,10 @@ bool Analysis::fitsOperation(NodeId node, const OpSpec& op) {
   const std::span<const NodeId> args = arguments(tree().child(node, 0));
   if (!acceptsCount(op.signatures, args.size())) return false;
   const bool muted = std::exchange(mute_, true);
+  const bool spoke = body_.unit != kNoUnit && walked_[body_.unit].speaks;
   const bool leaf = checkBuiltinCall({op.name, node, op.signatures, true}, args).leaf;
   mute_ = muted;
+  if (body_.unit != kNoUnit) walked_[body_.unit].speaks = spoke;
   return !leaf;
 }
 

@@ -59,7 +59,7 @@ std::string hintOfFraction(double v) {
 Value Analysis::writtenValue(NodeId node) {
   const NodeKind kind = tree().kind(node);
   const bool prefixed = kind == NodeKind::Relative || kind == NodeKind::Floating;
-  Value v = module().constants[prefixed ? tree().child(node, 0) : node];
+  Value v = module().constantAt(prefixed ? tree().child(node, 0) : node);
   if (prefixed) v.unit = kind == NodeKind::Relative ? gable::Unit::Relative : gable::Unit::Floating;
   return v;
 }
@@ -192,6 +192,7 @@ void Analysis::checkWrittenCall(NodeId node, std::string_view callee, const Sign
 void Analysis::checkWrittenValues(ModuleId firstModule) {
   foldConstants();
   for (ModuleId m = firstModule; m < program_.modules.size(); ++m) {
+    if (program_.modules[m].original != m) continue;
     body_ = {};
     body_.module = m;
     for (NodeId node = 1; node < tree().size(); ++node) {
