@@ -9,6 +9,7 @@
 #include "program/reach.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "base/hash.h"
 
@@ -27,6 +28,15 @@ struct CodeUnit {
   /// Instructions that ask for room.
   std::vector<uint32_t> asking;
 };
+
+// The numbers of the bits that are set.
+void appendNumbers(const std::vector<uint64_t>& bits, std::vector<uint32_t>& out) {
+  for (uint32_t w = 0; w < bits.size(); ++w) {
+    for (uint64_t rest = bits[w]; rest != 0; rest &= rest - 1) {
+      out.push_back(w * 64 + static_cast<uint32_t>(std::countr_zero(rest)));
+    }
+  }
+}
 
 class Hash {
  public:
@@ -331,9 +341,7 @@ class Within {
     Reach out;
     for (const uint64_t part : parts) out.code = hashCombine(out.code, part);
     out.setsAttributes = sets_;
-    for (uint32_t a = 0; a < program_.attributes.size(); ++a) {
-      if (bits_[a / 64] >> a % 64 & 1) out.attributes.push_back(a);
-    }
+    appendNumbers(bits_, out.attributes);
     return out;
   }
 
@@ -398,9 +406,7 @@ std::vector<Reach> reachOf(const Program& program) {
     const Folding::Component& c = folding.of(r);
     out[r].code = hashCombine(c.code, units[r].own);
     out[r].setsAttributes = c.sets;
-    for (uint32_t a = 0; a < program.attributes.size(); ++a) {
-      if (c.attributes[a / 64] >> a % 64 & 1) out[r].attributes.push_back(a);
-    }
+    appendNumbers(c.attributes, out[r].attributes);
   }
   return out;
 }
