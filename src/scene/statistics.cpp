@@ -62,7 +62,7 @@ Box3 placed(const Box3& box, const Vec3& scale, const Frame& frame) {
   return {middle - reach, middle + reach};
 }
 
-// Larger by more than the rounding of one placement.
+// Larger by more than the rounding of one placement, also of a part of what lies in the box.
 Box3 widened(Box3 b) {
   if (b.empty()) return b;
   const Vec3 most{std::max(std::fabs(b.min.x), std::fabs(b.max.x)),
@@ -128,13 +128,13 @@ Tally measure(const Scene& scene, const Prototype& p, Parts& known) {
   for (uint32_t i = 0; i < p.leafCount; ++i) {
     const Leaf& l = scene.leaves[p.firstLeaf + i];
     own.add(known.tallies[l.mesh]);
-    box.include(widened(placed(known.meshes[l.mesh], l.scale, l.frame)));
+    box.include(placed(known.meshes[l.mesh], l.scale, l.frame));
   }
   for (uint32_t i = 0; i < p.instanceCount; ++i) {
     const Instance& in = scene.instances[p.firstInstance + i];
-    box.include(widened(placed(known.prototypes[in.prototype].box(), {1, 1, 1}, in.frame)));
+    box.include(placed(known.prototypes[in.prototype].box(), {1, 1, 1}, in.frame));
   }
-  known.prototypes.emplace_back(box);
+  known.prototypes.emplace_back(widened(box));
   return own;
 }
 
