@@ -36,7 +36,7 @@ PlaneId Planes::add(GridPoint from, GridPoint to, double weight) {
 
   // s = length * weight * 2^103, plus a hair of its own.
   const WideInt square = WideInt(static_cast<Int128>(p.a) * p.a + static_cast<Int128>(p.b) * p.b);
-  const WideInt len = sqrt(WideInt(square << 100));
+  const WideInt len = rootOf(square << 100);
   const double w = std::max(weight, kStandStill);
   const uint64_t hair = mix64(planes_.size() + 1) >> 4;
   if (w < 0x1p-40) {

@@ -31,4 +31,20 @@ double quotient(const WideInt& num, const WideInt& den) {
   return std::ldexp(mn / md, en - ed);
 }
 
+// A root in doubles, one step of Newton's method, whose error is half a unit or so, and what is
+// left to do in steps of one. The library finds a root bit by bit.
+WideInt rootOf(const WideInt& square) {
+  if (square.is_zero()) return 0;
+  int exponent = 0;
+  const double m = mantissa(square, exponent);
+  const bool odd = exponent % 2 != 0;
+  const double first = std::ldexp(std::sqrt(odd ? 2 * m : m), (exponent - (odd ? 1 : 0)) / 2);
+  WideInt root(first);
+  root +=
+      static_cast<int64_t>(std::llround(static_cast<double>(square - root * root) / (2 * first)));
+  while (root * root > square) --root;
+  for (WideInt next = root + 1; next * next <= square; ++next) root = next;
+  return root;
+}
+
 }  // namespace gable::skeleton

@@ -22,4 +22,8 @@ using WideInt =
 /// num / den as the nearest double, or one beside it.
 double quotient(const WideInt& num, const WideInt& den);
 
+/// The largest whole number whose square is at most `square`, which is not negative and has at most
+/// 210 bits.
+WideInt rootOf(const WideInt& square);
+
 }  // namespace gable::skeleton
