@@ -203,6 +203,8 @@ class Analysis {
   /// The signatures that the arguments fit by count and names; reports when there are none.
   std::vector<uint16_t> signaturesByShape(const CallTarget& target,
                                           std::span<const NodeId> arguments);
+  void keepNearest(const CallTarget& target, std::span<const NodeId> args,
+                   std::vector<uint16_t>& left) const;
   bool hasNames(std::span<const NodeId> arguments) const;
   /// The arguments of a call by name in the order of the signature, which they fit; kept for the
   /// compiler. kNoNode where there is none.

@@ -391,6 +391,39 @@ std::span<const NodeId> Analysis::orderArguments(NodeId node, const Signature& s
   return order;
 }
 
+// Where what is written out fits no form, the forms that the least of it fits not: what is told
+// is then the mistake, and not that of a form which nobody meant.
+void Analysis::keepNearest(const CallTarget& target, std::span<const NodeId> args,
+                           std::vector<uint16_t>& left) const {
+  const auto isWrong = [&](const ParamSpec& p, NodeId node) {
+    switch (tree().kind(node)) {
+      case NodeKind::Number: return !fits(ValueType::Float, p.type);
+      case NodeKind::Bool: return !fits(ValueType::Bool, p.type);
+      case NodeKind::String:
+        return p.type == ParamType::Selector ? !hasWord(p.words, text(node))
+                                             : !fits(ValueType::String, p.type);
+      default: return false;
+    }
+  };
+  std::vector<size_t> wrong;
+  for (const uint16_t s : left) {
+    const Signature& signature = target.signatures[s];
+    size_t& count = wrong.emplace_back();
+    for (size_t i = 0; i < args.size(); ++i) {
+      const bool named = tree().kind(args[i]) == NodeKind::NamedArg;
+      const ParamSpec& p = *signature.paramAt(parameterOf(signature, args, i));
+      count += isWrong(p, named ? tree().child(args[i], 0) : args[i]) ? 1 : 0;
+    }
+  }
+  const size_t least = *std::min_element(wrong.begin(), wrong.end());
+  if (least == 0) return;
+  size_t kept = 0;
+  for (size_t i = 0; i < left.size(); ++i) {
+    if (wrong[i] == least) left[kept++] = left[i];
+  }
+  left.resize(kept);
+}
+
 Analysis::Chosen Analysis::checkBuiltinCall(const CallTarget& target,
                                             std::span<const NodeId> args) {
   const bool anyNamed = hasNames(args);
@@ -409,6 +442,7 @@ Analysis::Chosen Analysis::checkBuiltinCall(const CallTarget& target,
     none.leaf = target.mayBeLeaf && !anyNamed;
     return none;
   }
+  if (left.size() > 1) keepNearest(target, args, left);
   bool unknownType = false;
   bool isFit = true;
   for (size_t i = 0; i < args.size(); ++i) {
