@@ -16,10 +16,18 @@ constexpr double kFlat = 1e-5;
 
 float narrow(double v) { return static_cast<float>(v); }
 
-void push(std::vector<float>& out, const Vec3& v) {
-  out.push_back(narrow(v.x));
-  out.push_back(narrow(v.y));
-  out.push_back(narrow(v.z));
+void put(float*& out, const Vec3& v) {
+  *out++ = narrow(v.x);
+  *out++ = narrow(v.y);
+  *out++ = narrow(v.z);
+}
+
+// Where so many more numbers go.
+template <class Number>
+Number* grow(std::vector<Number>& out, size_t count) {
+  const size_t size = out.size();
+  out.resize(size + count);
+  return out.data() + size;
 }
 
 // The geometry of a mirrored batch is mirrored in x itself, so the matrix takes that back: what a
@@ -122,19 +130,29 @@ void BatchBuilder::addPart(DrawGeometry& to, uint32_t mesh, const DrawSurface& s
     const SurfaceFace& face = surface.faces[f];
     const auto base = static_cast<uint32_t>(to.positions.size() / 3);
     const FaceAxes axes = laid ? layingOf(m, surface, face, world, scale) : FaceAxes{};
+    float* position = grow(to.positions, size_t{face.vertexCount} * 3);
+    float* normal = grow(to.normals, size_t{face.vertexCount} * 3);
+    float* uv = grow(to.uvs, size_t{face.vertexCount} * 2);
+    // The corners of a flat face have one normal.
+    const Vec3* known = nullptr;
+    Vec3 placed;
     for (uint32_t v = face.firstVertex; v < face.firstVertex + face.vertexCount; ++v) {
       const uint32_t corner = surface.corners[v];
-      push(to.positions, world.point(scaled(m.at(corner), scale)));
-      push(to.normals, world.direction(scaledNormal(surface.normals[v], scale)));
-      const Vec2 uv = laid         ? axes.at(world.point(scaled(m.at(corner), scale)))
-                      : m.hasUv(0) ? m.uvs[0][corner]
-                                   : Vec2{};
-      to.uvs.push_back(narrow(uv.x));
-      to.uvs.push_back(narrow(uv.y));
+      const Vec3 point = world.point(scaled(m.at(corner), scale));
+      put(position, point);
+      if (!known || !(*known == surface.normals[v])) {
+        known = &surface.normals[v];
+        placed = world.direction(scaledNormal(*known, scale));
+      }
+      put(normal, placed);
+      const Vec2 at = laid ? axes.at(point) : m.hasUv(0) ? m.uvs[0][corner] : Vec2{};
+      *uv++ = narrow(at.x);
+      *uv++ = narrow(at.y);
     }
+    uint32_t* index = grow(to.indices, size_t{face.triangleCount} * 3);
     for (uint32_t t = 0; t < face.triangleCount; ++t) {
       const auto& tri = surface.triangles[face.firstTriangle + t];
-      for (int c = 0; c < 3; ++c) to.indices.push_back(base + tri[turned ? 2 - c : c]);
+      for (int c = 0; c < 3; ++c) *index++ = base + tri[turned ? 2 - c : c];
     }
   }
 }
