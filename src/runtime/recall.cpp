@@ -19,7 +19,7 @@ std::vector<uint32_t> instructionsOf(const std::vector<Recall::Source>& sources,
                                      const Program& program) {
   std::map<std::pair<std::string_view, size_t>, uint32_t> entries;
   for (const RuleCode& r : program.rules) {
-    entries.try_emplace({r.qualifiedName, r.parameters.size()}, r.entry);
+    if (r.reached) entries.try_emplace({r.qualifiedName, r.parameters.size()}, r.entry);
   }
   std::vector<uint32_t> out;
   out.reserve(sources.size());
