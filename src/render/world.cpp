@@ -389,30 +389,20 @@ class Builder {
   }
 
   /// The height below which a hundredth of all footprint area begins, unless that lies far above
-  /// the lowest point: then the scene has terrain, and its lowest point counts. Single twigs and
-  /// roots count for neither.
+  /// the lowest point: then the scene has terrain, and its lowest point counts.
   double foot() {
     if (feet_.empty()) return world_.bounds.min.y;
     std::sort(feet_.begin(), feet_.end(), [](const auto& a, const auto& b) {
       work();
       return a < b;
     });
-    double total = 0;
+    double total = 0, sum = 0;
     for (const auto& [y, area] : feet_) total += area;
-    constexpr double kTwigs = 1;
-    const double lowest = heightOfFeet(std::min(kTwigs, 0.0005 * total));
-    const double most = heightOfFeet(0.01 * total);
-    return most - lowest < 1.5 ? most : lowest;
-  }
-
-  /// The height below which so many square metres of footprints begin.
-  double heightOfFeet(double area) const {
-    double sum = 0;
-    for (const auto& foot : feet_) {
-      sum += foot.second;
-      if (sum >= area) return foot.first;
+    for (const auto& [y, area] : feet_) {
+      sum += area;
+      if (sum >= 0.01 * total) return y - feet_[0].first < 1.5 ? y : feet_[0].first;
     }
-    return feet_.back().first;
+    return feet_[0].first;
   }
 
   const Scene& scene_;
