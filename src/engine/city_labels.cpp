@@ -68,7 +68,8 @@ CityLabels::CityLabels(const Model::Impl& model, const std::atomic<bool>* cancel
   const std::vector<ShapeFootprint>& shapes = model.from->shapes.impl().footprints;
   together_ = std::any_of(shapes.begin(), shapes.end(), [&](const ShapeFootprint& shape) {
     const int32_t rule = ruleOf(shape);
-    return rule >= 0 && asksOthers(model.rules->program.rules[static_cast<size_t>(rule)]);
+    return rule >= 0 &&
+           asksOthers(model.rules->program.rules[static_cast<size_t>(rule)].reads.effects);
   });
   if (!together_) return;
   firstOfRoots_.push_back(0);

@@ -20,10 +20,9 @@ inline bool namesStartRule(const AttributeValue& a) {
 int32_t startRuleOf(const std::vector<AttributeValue>& attributes, const Program& program,
                     int32_t usual);
 
-/// Whether a rule asks about other shapes, which have to be derived with its own then.
-inline bool asksOthers(const RuleCode& r) {
-  return (r.reads.effects & (kReadsContext | kAsksForRoom)) != 0;
-}
+/// Whether rules of these effects ask about other shapes, which have to be derived with theirs
+/// then.
+inline bool asksOthers(uint32_t effects) { return (effects & (kReadsContext | kAsksForRoom)) != 0; }
 
 /// Of files of shapes, in bytes.
 constexpr uint64_t kLargestShapeFile = uint64_t{2} << 30;

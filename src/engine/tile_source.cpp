@@ -185,8 +185,7 @@ TileTreeOptions tileOptions(const Rules& rules, const TileSettings& settings,
 
 size_t unitShapes(const Rules& rules) {
   // A batch does not have the others.
-  const std::vector<RuleCode>& all = rules.impl().program.rules;
-  return std::any_of(all.begin(), all.end(), asksOthers) ? 0 : kUnitShapes;
+  return asksOthers(rules.impl().program.effects) ? 0 : kUnitShapes;
 }
 
 void warnTogether(DiagnosticList& diagnostics) {

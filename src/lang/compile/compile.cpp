@@ -15,6 +15,25 @@ namespace gable::lang {
 
 namespace {
 
+uint32_t effectsOf(const Resolution& r) {
+  switch (r.kind) {
+    case RefKind::Operation: return r.spec.operation->effects;
+    case RefKind::BuiltinFunction: return r.spec.function ? r.spec.function->effects : 0;
+    case RefKind::ShapeAttribute: return r.spec.attribute->effects;
+    default: return 0;
+  }
+}
+
+// Copies name what their originals name.
+uint32_t effectsOf(const ResolvedProgram& resolved) {
+  uint32_t effects = 0;
+  for (const Module& m : resolved.modules) {
+    if (m.original != m.id) continue;
+    for (const Resolution& r : m.resolutions) effects |= effectsOf(r);
+  }
+  return effects;
+}
+
 class Compiler {
  public:
   Compiler(const ResolvedProgram& resolved, const Catalogue& catalogue,
@@ -32,6 +51,7 @@ class Compiler {
     for (const FunctionInfo& f : r_.functions) compileFunction(f);
     for (const AttributeInfo& a : r_.attributes) compileAttribute(a);
     closeDependence(program_, ruleUses_, functionUses_, initialiserUses_);
+    program_.effects = effectsOf(r_);
     program_.startRule = r_.startRule == kNone ? -1 : static_cast<int32_t>(r_.startRule);
     return std::move(program_);
   }
