@@ -293,6 +293,12 @@ uint32_t meetTogether(const Stage& stage, std::span<const Ray> whole, Surface* s
     if (!shorten(stage, rays[i], entries[i])) rays[i] = kNoRay;
   }
   const uint32_t found = stage.tracer.intersectTogether({rays, whole.size()}, hits);
+  for (size_t i = 0; i < whole.size(); ++i) {
+    if (found >> i & 1) fetchTriangle(stage.world, hits[i]);
+  }
+  for (size_t i = 0; i < whole.size(); ++i) {
+    if (found >> i & 1) fetchCorners(stage.world, hits[i]);
+  }
   uint32_t met = 0;
   for (size_t i = 0; i < whole.size(); ++i) {
     if (!(rays[i].from < rays[i].to)) continue;
