@@ -44,6 +44,10 @@ constexpr int kMapCells = 1024;
 constexpr int kGroupOctaves = 6;
 /// From the edge of a cloud to its highest place, in the noise of the map.
 constexpr float kSwing = 0.5f;
+/// Above this height of the map clouds are seen; one of fewer cells, 25 metres wide each, is a
+/// speck.
+constexpr float kSeen = 0.1f;
+constexpr size_t kLeastCloud = 600;
 /// The share of a thin sky that nobody sees.
 constexpr double kThin = 0.3;
 /// The share of the height over which the foot of a cloud becomes dense, and the height at which
@@ -123,6 +127,33 @@ class Layer {
     std::nth_element(sorted.begin(), nth, sorted.end());
     const float level = *nth;
     for (float& v : map_) v = std::clamp((v - level) / kSwing, 0.0f, 1.0f);
+    leaveOutSpecks();
+  }
+
+  /// Lowers what is seen of few cells alone: in a picture it is a white dot.
+  void leaveOutSpecks() {
+    std::vector<bool> known(map_.size(), false);
+    std::vector<size_t> cloud;
+    for (size_t first = 0; first < map_.size(); ++first) {
+      if (known[first] || map_[first] <= kSeen) continue;
+      cloud.assign(1, first);
+      known[first] = true;
+      for (size_t k = 0; k < cloud.size(); ++k) {
+        const size_t at = cloud[k], i = at % kMapCells, j = at / kMapCells;
+        const auto visit = [&](bool isInside, size_t next) {
+          if (!isInside || known[next] || map_[next] <= kSeen) return;
+          known[next] = true;
+          cloud.push_back(next);
+        };
+        visit(i > 0, at - 1);
+        visit(i + 1 < kMapCells, at + 1);
+        visit(j > 0, at - kMapCells);
+        visit(j + 1 < kMapCells, at + kMapCells);
+      }
+      work(cloud.size());
+      if (cloud.size() >= kLeastCloud) continue;
+      for (const size_t at : cloud) map_[at] = kSeen / 2;
+    }
   }
 
   void makeBlock() {

@@ -94,6 +94,29 @@ TEST(Clouds, haveNoSeams) {
   }
 }
 
+/// Whether something stands in a direction and nothing in a circle of two degrees about it.
+bool isSpeck(const Clouds& clouds, double elevation, double turn) {
+  if (clouds.seen(towards(elevation, turn)).clear > 0.95f) return false;
+  constexpr int kAround = 24;
+  for (int k = 0; k < kAround; ++k) {
+    const double angle = 360.0 * k / kAround, aside = 2 * cosDeg(angle) / cosDeg(elevation);
+    if (clouds.seen(towards(elevation + 2 * sinDeg(angle), turn + aside)).clear < 0.99f) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// A puff of some metres in an empty sky is a white dot in the picture.
+TEST(Clouds, areNoSpecks) {
+  const Clouds clouds(0.25, 38);
+  for (double elevation = 14; elevation < 27; elevation += 0.15) {
+    for (double turn = 0; turn < 360; turn += 0.15) {
+      ASSERT_FALSE(isSpeck(clouds, elevation, turn)) << elevation << ' ' << turn;
+    }
+  }
+}
+
 TEST(Clouds, haveABrightRimTowardsTheSun) {
   EXPECT_NEAR(Clouds::forward(0), 1, 1e-6);
   EXPECT_GT(Clouds::forward(0.99f), 3);

@@ -299,6 +299,28 @@ Surface shellAt(const World& world, const Hit& hit, const Ray& ray, float width)
 
 }  // namespace
 
+namespace {
+
+const TriangleSet& setAt(const World& world, const Hit& hit) {
+  const uint32_t part = hit.placement == kNone ? 0 : world.placements[hit.placement].part;
+  return world.parts[part].set(hit.clear);
+}
+
+}  // namespace
+
+void fetchTriangle(const World& world, const Hit& hit) {
+  __builtin_prefetch(&setAt(world, hit).triangles[hit.triangle]);
+}
+
+void fetchCorners(const World& world, const Hit& hit) {
+  const TriangleSet& set = setAt(world, hit);
+  const TriangleSet::Triangle& triangle = set.triangles[hit.triangle];
+  __builtin_prefetch(&world.materials[triangle.material]);
+  if (triangle.attributes == kNone) return;
+  __builtin_prefetch(&set.pool[triangle.attributes]);
+  __builtin_prefetch(&set.positions[triangle.corners[0]]);
+}
+
 Surface surfaceAt(const World& world, const Hit& hit, const Ray& ray, float width) {
   Surface s = shellAt(world, hit, ray, width);
   if (s.matter == Matter::Smoke) {

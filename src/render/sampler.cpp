@@ -7,6 +7,8 @@
 
 #include "render/sampler.h"
 
+#include <bit>
+
 namespace gable::rt {
 
 namespace {
@@ -93,21 +95,23 @@ inline Vec2f ofEighths(float eighths) {
           x * (1 + s * (-1 / 6.0f + s * (1 / 120.0f + s * (-1 / 5040.0f + s * (1 / 362880.0f)))))};
 }
 
+/// The first where all bits of the mask are set, the second where none is. Either is as likely,
+/// which no processor foresees: so there are no two ways through the program.
+inline float chosen(uint32_t mask, float first, float second) {
+  return std::bit_cast<float>((std::bit_cast<uint32_t>(first) & mask) |
+                              (std::bit_cast<uint32_t>(second) & ~mask));
+}
+
 }  // namespace
 
 Vec2f onDisc(Vec2f u) {
   const float a = 2 * u.x - 1, b = 2 * u.y - 1;
   if (a == 0 && b == 0) return {};
-  // Either is the longer one as often, which no processor foresees: places in memory instead of
-  // ways through the program.
-  const float sides[2] = {a, b};
-  const size_t along = std::abs(a) > std::abs(b) ? 0 : 1, across = 1 - along;
-  const float radius = sides[along];
-  const Vec2f turn = ofEighths(sides[across] / radius);
-  float at[2];
-  at[along] = radius * turn.x;
-  at[across] = radius * turn.y;
-  return {at[0], at[1]};
+  const uint32_t isAlongX = std::abs(a) > std::abs(b) ? 0xffffffff : 0;
+  const float radius = chosen(isAlongX, a, b);
+  const Vec2f turn = ofEighths(chosen(isAlongX, b, a) / radius);
+  const float along = radius * turn.x, across = radius * turn.y;
+  return {chosen(isAlongX, along, across), chosen(isAlongX, across, along)};
 }
 
 Vec3f cosineDirection(const Vec3f& n, Vec2f u) {

@@ -295,9 +295,22 @@ Sky::Sky(double sunElevation, double haze) {
   irradiance *= kPif / (kRings * kTurns);
 }
 
+namespace {
+
+/// The angle with that cosine, to a few thousandths of a degree (Abramowitz and Stegun 1964,
+/// 4.4.45): a third of the time of the library's.
+float angleOf(float cosine) {
+  const float c = std::abs(cosine);
+  const float angle =
+      std::sqrt(1 - c) * (1.5707288f + c * (-0.2121144f + c * (0.0742610f - c * 0.0187293f)));
+  return cosine < 0 ? kPif - angle : angle;
+}
+
+}  // namespace
+
 Vec3f Sky::radiance(float up, float cosineFromSun) const {
   const float y = std::sqrt(std::clamp(up, 0.0f, 1.0f)) * kUps;
-  const float angle = std::acos(std::clamp(cosineFromSun, -1.0f, 1.0f));
+  const float angle = angleOf(std::clamp(cosineFromSun, -1.0f, 1.0f));
   const float x = std::sqrt(angle / kPif) * kAsides;
   const int j = std::min(kUps - 1, static_cast<int>(y));
   const int i = std::min(kAsides - 1, static_cast<int>(x));

@@ -47,7 +47,9 @@ float groundTone(const Vec3f& p, float distance) {
   float tone = 1 + 0.05f * smoothNoise(p.x / 19, p.z / 19, 1);
   const float fine = 60 / (60 + distance);
   tone += fine * 0.04f * smoothNoise(p.x / 2.3f, p.z / 2.3f, 2);
-  tone += fine * fine * 0.05f * smoothNoise(p.x / 0.31f, p.z / 0.31f, 3);
+  // Below a thousandth nobody sees it.
+  constexpr float kLeast = 0.14f;
+  if (fine > kLeast) tone += fine * fine * 0.05f * smoothNoise(p.x / 0.31f, p.z / 0.31f, 3);
   return tone;
 }
 
@@ -143,30 +145,33 @@ void makeCut(const Stage& stage, const Ray& ray, float distance, const Vec3f& ba
   surface.isCut = true;
 }
 
-void makeGround(const Stage& stage, const Ray& ray, float t, Surface& surface) {
+/// Where it is not looked at, its tone is the mean one.
+void makeGround(const Stage& stage, const Ray& ray, float t, bool sharp, Surface& surface) {
   surface = Surface();
   surface.point = ray.origin + ray.direction * t;
   surface.point.y = stage.groundHeight;
   surface.facet = surface.normal = {0, 1, 0};
-  surface.base = stage.clay ? kClayGround : stage.light.groundAlbedo * groundTone(surface.point, t);
+  surface.base = stage.clay ? kClayGround
+                            : stage.light.groundAlbedo * (sharp ? groundTone(surface.point, t) : 1);
   surface.isGround = true;
 }
 
 /// The endless ground, before what is found at `distance`.
-bool meetGround(const Stage& stage, const Ray& ray, bool found, float& distance, Surface& surface) {
+bool meetGround(const Stage& stage, const Ray& ray, bool found, bool sharp, float& distance,
+                Surface& surface) {
   if (!stage.ground || stage.block || ray.direction.y >= 0) return false;
   const float t = (stage.groundHeight - ray.origin.y) / ray.direction.y;
   // What lies on the ground, within 3 mm, wins over it.
   const float lead = 0.003f / -ray.direction.y;
   if (!(t > ray.from && t < ray.to && (!found || t + lead < distance))) return false;
-  makeGround(stage, ray, t, surface);
+  makeGround(stage, ray, t, sharp, surface);
   distance = t;
   return true;
 }
 
 /// The block of soil that stands for the ground of a section.
-bool meetBlock(const Stage& stage, const Ray& ray, float entry, bool found, float& distance,
-               Surface& surface) {
+bool meetBlock(const Stage& stage, const Ray& ray, float entry, bool found, bool sharp,
+               float& distance, Surface& surface) {
   if (!stage.ground || !stage.block) return false;
   const Vec3f min = stage.block->min, max = stage.block->max;
   float from = -1e30f, to = 1e30f;
@@ -190,7 +195,7 @@ bool meetBlock(const Stage& stage, const Ray& ray, float entry, bool found, floa
   }
   const float lead = face == 1 ? 0.003f / std::max(1e-6f, std::abs(ray.direction.y)) : 0;
   if (!(from > ray.from && from < ray.to && (!found || from + lead < distance))) return false;
-  makeGround(stage, ray, from, surface);
+  makeGround(stage, ray, from, sharp, surface);
   if (face != 1) {
     surface.point = ray.origin + ray.direction * from;
     surface.base = kCutSoil;
@@ -256,8 +261,8 @@ bool nearest(const Stage& stage, const Ray& ray, float entry, const Hit* hit, bo
       return true;
     }
   }
-  if (meetBlock(stage, ray, entry, hit != nullptr, distance, surface)) return true;
-  if (meetGround(stage, ray, hit != nullptr, distance, surface)) return true;
+  if (meetBlock(stage, ray, entry, hit != nullptr, sharp, distance, surface)) return true;
+  if (meetGround(stage, ray, hit != nullptr, sharp, distance, surface)) return true;
   if (!hit) return false;
   surface = surfaceAt(stage.world, *hit, ray, widthAt(stage, sharp, hit->distance));
   if (stage.clay) {
@@ -293,6 +298,12 @@ uint32_t meetTogether(const Stage& stage, std::span<const Ray> whole, Surface* s
     if (!shorten(stage, rays[i], entries[i])) rays[i] = kNoRay;
   }
   const uint32_t found = stage.tracer.intersectTogether({rays, whole.size()}, hits);
+  for (size_t i = 0; i < whole.size(); ++i) {
+    if (found >> i & 1) fetchTriangle(stage.world, hits[i]);
+  }
+  for (size_t i = 0; i < whole.size(); ++i) {
+    if (found >> i & 1) fetchCorners(stage.world, hits[i]);
+  }
   uint32_t met = 0;
   for (size_t i = 0; i < whole.size(); ++i) {
     if (!(rays[i].from < rays[i].to)) continue;

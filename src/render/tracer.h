@@ -70,6 +70,11 @@ class Tracer {
 float clearness(const World& world, const TriangleSet& set, uint32_t triangle, uint32_t placement,
                 float u, float v);
 
+/// Asks for what surfaceAt() reads of a triangle, so that it is there by then: its record first,
+/// and what that points at. Of several hits first one, then the other for all of them.
+void fetchTriangle(const World& world, const Hit& hit);
+void fetchCorners(const World& world, const Hit& hit);
+
 /// What lies at a hit, seen along the ray's direction. Details finer than `width`, in metres, need
 /// not be seen; with kNoDetails only the light that it sends around counts.
 constexpr float kNoDetails = 1e30f;
