@@ -291,7 +291,8 @@ struct Program {
   std::vector<const AttributeSpec*> builtinAttributes;
   /// Project paths of the rule files, by file id of the spans.
   std::vector<std::string> files;
-  /// Of all operations, functions and attributes that its files name, in rules without code as well.
+  /// Of all operations, functions and attributes that its files name, in rules without code as
+  /// well.
   uint32_t effects = 0;
   /// The rule to start with unless the user names one; -1 when the file has none.
   int32_t startRule = -1;
