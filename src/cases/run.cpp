@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
+#include <set>
 
 #include "base/allowance.h"
 #include "base/files.h"
@@ -268,27 +270,31 @@ void CaseRun::runCase() {
 
 void CaseRun::runSeeds(const Rules& rules, const Shapes& shapes, DeriveSettings& derived,
                        const std::vector<double>& seeds, const Outcome& loaded) {
-  std::vector<CaseFailure> first;
-  double failed = 0, firstSeed = 0;
+  // By line: how a statement failed first, and with how many seeds.
+  struct Told {
+    CaseFailure failure;
+    double seed = 0;
+    size_t seeds = 0;
+  };
+  std::map<uint32_t, Told> told;
   for (const double seed : seeds) {
     derived.seed = seed;
     runSeed(rules, shapes, derived, loaded);
     if (stopped()) return;
-    if (result_.failures.empty()) continue;
-    if (first.empty()) {
-      first = std::move(result_.failures);
-      firstSeed = seed;
+    std::set<uint32_t> lines;
+    for (CaseFailure& f : result_.failures) {
+      if (!lines.insert(f.line).second) continue;
+      Told& t = told.try_emplace(f.line, Told{f, seed, 0}).first->second;
+      ++t.seeds;
     }
-    result_.failures.clear();
-    ++failed;
+    if (seeds.size() > 1) result_.failures.clear();
   }
-  if (seeds.size() > 1) {
-    const std::string others = failed > 1 ? " and " + shortestText(failed - 1) + " more" : "";
-    for (CaseFailure& f : first) {
-      f.message = "with seed " + shortestText(firstSeed) + others + ": " + f.message;
-    }
+  for (const auto& [line, t] : told) {
+    if (seeds.size() == 1) break;
+    const std::string others = t.seeds > 1 ? " and " + std::to_string(t.seeds - 1) + " more" : "";
+    result_.failures.push_back(
+        {line, "with seed " + shortestText(t.seed) + others + ": " + t.failure.message});
   }
-  result_.failures = std::move(first);
 }
 
 void CaseRun::runSeed(const Rules& rules, const Shapes& shapes, DeriveSettings derived,

@@ -28,7 +28,7 @@ class CaseRun {
   CaseRun(const Case& c, const std::string& file, const CaseSettings& settings);
 
   /// Derives with and without sharing, and holds the result against the expectations; of several
-  /// seeds with each, telling what does not hold with the first of them.
+  /// seeds with each, telling of each statement the first that it does not hold with.
   CaseResult run();
 
   const std::vector<DumpUpdate>& updates() const { return updates_; }

@@ -13,6 +13,7 @@
 
 #include "base/allowance.h"
 #include "base/dispose.h"
+#include "base/most_diagnostics.h"
 #include "base/parallel.h"
 #include "base/text.h"
 #include "builtins/catalogue.h"
@@ -146,6 +147,14 @@ void checkTraceFilter(const Program& program, const TraceFilter& filter, Diagnos
   }
 }
 
+std::vector<std::string_view> startNames(const Program& program) {
+  std::vector<std::string_view> names;
+  for (const RuleCode& rule : program.rules) {
+    if (rule.parameters.empty()) names.push_back(rule.qualifiedName);
+  }
+  return names;
+}
+
 // The attributes and the start rule that the caller names, by their numbers in the program.
 void bindSettings(const Rules::Impl& rules, const DeriveSettings& settings, DeriveOptions& options,
                   DiagnosticList& wrong) {
@@ -190,17 +199,13 @@ void bindSettings(const Rules::Impl& rules, const DeriveSettings& settings, Deri
     options.attributes.emplace_back(name, value.value());
   }
   checkTraceFilter(program, settings.traceFilter, wrong);
-  std::vector<std::string_view> starts;
-  for (const RuleCode& rule : program.rules) {
-    if (rule.parameters.empty()) starts.push_back(rule.qualifiedName);
-  }
   if (settings.startRule) {
     options.startRule = program.findRule(*settings.startRule);
     if (options.startRule >= 0) return;
     complain(
         {"unknown-start-rule",
          "the rules have no rule '" + *settings.startRule + "' without parameters to start with",
-         hintFor(*settings.startRule, starts, "rules without parameters")});
+         hintFor(*settings.startRule, startNames(program), "rules without parameters")});
   } else if (program.startRule < 0) {
     const std::string file = program.files.empty() ? std::string() : program.files[0];
     const bool blank = program.rules.empty();
@@ -210,6 +215,33 @@ void bindSettings(const Rules::Impl& rules, const DeriveSettings& settings, Deri
              ? "it holds no rule at all, or none outside of styles; the folder of examples has some"
              : "write a rule without parameters, or name another file"});
   }
+}
+
+// Rules that shapes name to start with, and that there are none of. What stands on a map was not
+// written for these rules.
+DiagnosticList unknownStarts(const Shapes::Impl& shapes, const Program& program) {
+  DiagnosticList out;
+  if (shapes.ofMap) return out;
+  std::map<std::string, size_t> counts;
+  for (const ShapeFootprint& f : shapes.footprints) {
+    for (const AttributeValue& a : f.attributes) {
+      if (namesStartRule(a) && !a.values[0].text.empty()) ++counts[a.values[0].text];
+    }
+  }
+  for (const auto& [name, count] : counts) {
+    if (program.findRule(name) >= 0 || out.size() >= kMostDiagnostics) continue;
+    const std::string who = count == 1 ? "a shape names" : std::to_string(count) + " shapes name";
+    out.push_back(diagnosticOf(
+        {Severity::Warning,
+         "unknown-start-rule",
+         Span{},
+         who + " '" + name + "' to start with, and the rules have no such rule without parameters",
+         hintFor(name, startNames(program), "rules without parameters"),
+         {},
+         {}},
+        Sources{}));
+  }
+  return out;
 }
 
 void checkWholeSeeds(const DeriveSettings& settings, DiagnosticList& wrong) {
@@ -405,8 +437,9 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
   const DiagnosticList made = told.without(
       listOf(inWordsOf(r.dialect, impl->result.diagnostics, builtinCatalogue()), r.sources));
   impl->diagnostics.insert(impl->diagnostics.end(), made.begin(), made.end());
-  for (const DiagnosticList& some : {outsideValues(initial, r), unusedProperties(shapes.impl(), r),
-                                     cityRuleNotes(shapes.impl(), r)}) {
+  for (const DiagnosticList& some :
+       {outsideValues(initial, r), unusedProperties(shapes.impl(), r),
+        cityRuleNotes(shapes.impl(), r), unknownStarts(shapes.impl(), r.program)}) {
     impl->diagnostics.insert(impl->diagnostics.end(), some.begin(), some.end());
   }
   makeSound(*impl, options);

@@ -376,8 +376,10 @@ std::string Rules::disassembly() const {
 std::vector<AttributeInfo> Rules::attributes() const {
   return guardedValue<std::vector<AttributeInfo>>([&] {
     std::vector<AttributeInfo> out;
+    // Those of a call of an import's rule have the names of the import's own.
+    std::set<std::string_view> known;
     for (const AttributeCode& a : impl_->program.attributes) {
-      if (a.constant || a.propagatesFrom >= 0) continue;
+      if (a.constant || a.propagatesFrom >= 0 || !known.insert(a.name).second) continue;
       out.push_back(
           {a.name, typeName(a.type), a.hidden, annotationsOf(a.annotations, *impl_->pool)});
     }

@@ -65,6 +65,11 @@ class Cases(Case):
         told = self.run_gable("test", status=WRONG, says="0 passed, 1 failed")
         found = re.search(r"all: with seed (\d+) and (\d+) more: leaves A 1: found 0", told)
         self.assertIsNotNone(found, told)
+        # Each statement has its own count.
+        self.cases(case("each", "leaves 2", "leaves A 1", rules=rules, more="seed: 0..59\n"))
+        told = self.run_gable("test", status=WRONG)
+        self.assertIn("each: with seed 0 and 59 more: leaves 2: found 1", told)
+        self.assertIn(f"each: with seed {found[1]} and {found[2]} more: leaves A 1: found 0", told)
         self.cases(case("one", "leaves A 1", rules=rules, more=f"seed: {found[1]}\n"))
         self.run_gable("test", status=WRONG, says="one: leaves A 1: found 0")
 

@@ -120,6 +120,18 @@ class Options(Case):
         self.run_gable("check", "warned.cga", "--strict", status=WRONG, says="0 errors, 2 warnings")
         self.run_gable("check", "good.cga", "--strict")
 
+    def testWhatShapesBringIsAWarning(self):
+        self.put("use.cga", '@Enum("house", "shop")\nattr use = "house"\nLot --> extrude(3) Wall.\nShed --> extrude(2) Wall.')
+        square = [[[0, 0], [9, 0], [9, 9], [0, 9], [0, 0]]]
+        lots = [{"type": "Feature", "geometry": {"type": "Polygon", "coordinates": square}, "properties": p}
+                for p in ({"use": "vila"}, {"startRule": "Shed"}, {"startRule": "Shedd"})]
+        crs = {"type": "name", "properties": {"name": "EPSG:25832"}}
+        self.put("lots.geojson", json.dumps({"type": "FeatureCollection", "crs": crs, "features": lots}))
+        told = self.run_gable("generate", "use.cga", "--shapes", "lots.geojson", "-o", "a.obj", says="attribute-value")
+        self.assertIn("a shape names 'Shedd' to start with", told)
+        self.assertIn("did you mean 'Shed'?", told)
+        self.run_gable("generate", "use.cga", "--set", "use=vila", "-o", "a.obj", status=USAGE, says="attribute-value")
+
     def testTheNotationOfATextIsGuessed(self):
         for name, option in (("gbbg/gbbg.gbbg", "gbbg"), ("park/square.park", "park"), ("progen3d/progen3d.grammar", "progen3d")):
             self.put("x.txt", (ROOT / "examples" / name).read_text())

@@ -166,7 +166,8 @@ void Analysis::walkAttribute(AttributeId id) {
   body_.module = a.valueModule;
   body_.attribute = id;
   body_.unit = unit;
-  expectType(value, visit(value, wanted), wanted, "the value of this attribute");
+  const std::string what = "the value of " + quote(program_.attributes[id].name);
+  expectType(value, visit(value, wanted), wanted, what.c_str());
 }
 
 // A type of a parameter, a function or an attribute has become known, or is left open.

@@ -294,6 +294,7 @@ class Analysis {
   void visitLocal(NodeId node, const OpSpec& op);
   void visitDo(NodeId node, const OpSpec& op);
   void visitImportCall(NodeId node, bool successor);
+  void checkGivenTypes(ModuleId target, NodeId list);
   void visitSuccessorChoice(NodeId node);
   void visitBlocks(NodeId node, const OpSpec& op);
   void visitBlock(NodeId block, const OpSpec& op);

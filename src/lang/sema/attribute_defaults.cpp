@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Values of attributes that their own @Range or @Enum leaves out. Forms would move them, so the
-// model that a form shows is not the one that the file describes.
+// model that a form shows is not the one that the file describes. Those that an import or a call
+// gives in brackets as well.
 
 #include <algorithm>
 #include <set>
@@ -85,6 +86,22 @@ void Analysis::checkDefaults(ModuleId firstModule) {
     body_.module = a.module;
     checkDefault(bodyOf(tree(), a.node), a);
     checkValuesAttribute(a);
+  }
+  const auto checkGiven = [&](ModuleId module, NodeId value, const AttributeInfo& a) {
+    if (!known.emplace(program_.modules[module].unit, value).second) return;
+    body_ = {};
+    body_.module = module;
+    checkDefault(value, a);
+  };
+  for (const AttributeInfo& a : program_.attributes) {
+    if (a.module < firstModule || a.source != ValueSource::Override) continue;
+    checkGiven(a.valueModule, a.valueNode, a);
+  }
+  for (const DynamicImport& d : program_.dynamicImports) {
+    if (d.module < firstModule) continue;
+    for (const DynamicImport::Given& given : d.given) {
+      checkGiven(d.module, given.value, program_.attributes[given.attribute]);
+    }
   }
 }
 

@@ -20,15 +20,6 @@ bool isArrayType(ValueType t) { return t >= ValueType::FloatArray; }
 
 }  // namespace
 
-void Analysis::expectType(NodeId node, ValueType got, ValueType wanted, const char* what) {
-  if (got == ValueType::Null || wanted == ValueType::Null || got == wanted) return;
-  const AttributeInfo* named = attributeAt(node);
-  const std::string who = named ? std::string(what) + ' ' + quote(named->name) : what;
-  errorAt("type-mismatch", node,
-          who + " must be a " + typeName(wanted) + ", not a " + typeName(got),
-          named ? typeRemedy(*named, wanted) : "");
-}
-
 namespace {
 
 // How a value that stands there in letters is written as one of another type; empty where that
@@ -50,6 +41,15 @@ std::string otherwiseWritten(const Tree& t, NodeId node, ValueType wanted) {
 }
 
 }  // namespace
+
+void Analysis::expectType(NodeId node, ValueType got, ValueType wanted, const char* what) {
+  if (got == ValueType::Null || wanted == ValueType::Null || got == wanted) return;
+  const AttributeInfo* named = attributeAt(node);
+  const std::string who = named ? std::string(what) + ' ' + quote(named->name) : what;
+  errorAt("type-mismatch", node,
+          who + " must be a " + typeName(wanted) + ", not a " + typeName(got),
+          named ? typeRemedy(*named, wanted) : otherwiseWritten(tree(), node, wanted));
+}
 
 // The attribute that a name stands for; null for all else.
 const AttributeInfo* Analysis::attributeAt(NodeId node) const {

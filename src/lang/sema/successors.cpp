@@ -358,6 +358,7 @@ void Analysis::visitImportCall(NodeId node, bool successor) {
   const ModuleId target = dynamicModule(body_.module, node);
   if (target == kNone) return makeLeaf(node, true);
   checkOverrides(target, t.child(node, 1));
+  checkGivenTypes(target, t.child(node, 1));
   const RuleSet found = rulesNamed(target, t.text(node));
   if (applyRule(node, found.rules, args, types)) return;
   makeLeaf(node, true);
@@ -365,6 +366,19 @@ void Analysis::visitImportCall(NodeId node, bool successor) {
           "the imported file has no rule " + quote(t.text(node)) + " with " +
               std::to_string(args.size()) + " arguments; it becomes a leaf",
           near(t.text(node), [&] { return ruleNames(target); }));
+}
+
+// Of the values in the brackets of a call, which have been visited.
+void Analysis::checkGivenTypes(ModuleId target, NodeId list) {
+  for (const NodeId item : tree().children(list)) {
+    if (tree().kind(item) != NodeKind::NamedArg) continue;
+    const auto at = scopes_[target].attributes.find(text(item));
+    if (at == scopes_[target].attributes.end()) continue;
+    look(UnitKind::Attribute, at->second);
+    const NodeId value = tree().child(item, 0);
+    const std::string what = "the value of " + quote(text(item));
+    expectType(value, module().types[value], program_.attributes[at->second].type, what.c_str());
+  }
 }
 
 // --- Operations ---
