@@ -27,7 +27,7 @@ Lot --> street.Cafe
 
 An attribute is set in the import, as in `import setting : "/gable/rules/setting.cga" (lamps = "#ffffff")`, in
 the importing file by an attribute of the same name, or from outside by `--set setting.lamps=...`. An argument in brackets
-may be left out.
+may be left out. Read [how files use each other](../guide/imports.md).
 
 What stands, such as trees, people and benches, stands along y of the scope. On a face of `comp(f)` y lies in the face: write
 `alignScopeToAxes(y)` before the call.

@@ -31,6 +31,7 @@ const kOrder = [
   'docs/guide/installing.md',
   'docs/guide/studio.md',
   'docs/guide/your-lot.md',
+  'docs/guide/imports.md',
   'docs/guide/regions.md',
   'docs/guide/materials.md',
   'docs/guide/sharing.md',
