@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <array>
 
+#include "base/text.h"
+
 namespace gable::cases {
 
 namespace {
@@ -96,8 +98,9 @@ class Reader {
     const std::string_view name = head.substr(0, blank);
     if (colon == std::string_view::npos ||
         std::find(kSections.begin(), kSections.end(), name) == kSections.end()) {
-      error("expected a section of a case, not '" + std::string(line) + "'; there are " +
-            sectionsText());
+      const std::string meant = didYouMean(name, {kSections.begin(), kSections.end()});
+      error("expected a section of a case, not '" + std::string(line) + "'; " +
+            (meant.empty() ? "there are " + sectionsText() : meant));
       return;
     }
     Section section;

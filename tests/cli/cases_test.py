@@ -74,7 +74,8 @@ class Cases(Case):
         self.run_gable("test", status=WRONG, says="one: leaves A 1: found 0")
 
     def testMistakesOfAFileFailIt(self):
-        for text, says in (("== a\nrulez: x\n", ":2: expected a section"), ("", "no case"),
+        for text, says in (("== a\nrulez: x\n", ":2: expected a section"), ("== a\nseeds: 3\n", "did you mean 'seed'?"),
+                           ("", "no case"),
                            ("Lot --> A.\n", "begins with '== name'"),
                            ("== a\nrule: Lot --> A.\n", "'expect'"),
                            (case("a", "leaves 1", rules="rules: ../rules/none.cga"), "none.cga"),
