@@ -584,7 +584,7 @@ TEST(Castles, areSound) {
   for (int seed = 1; seed <= seeds(4); ++seed) {
     const Model m = castleOf(100 + seed);
     EXPECT_EQ(joined(faults(sceneOf(m))), "") << "seed " << 100 + seed;
-    EXPECT_GT(count(sceneOf(m)).leaves, 12000u);
+    EXPECT_GT(count(sceneOf(m)).leaves, 15000u);
     for (const char* what : {"built.court", "built.keep", "gate"}) {
       EXPECT_FALSE(reported(m, what).empty()) << what;
     }
