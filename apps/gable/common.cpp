@@ -11,7 +11,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <initializer_list>
-#include <iterator>
 #include <mutex>
 #include <random>
 #include <sstream>
@@ -257,10 +256,10 @@ bool hasCode(const gable::DiagnosticList& diagnostics, std::initializer_list<con
 // What only the command line says, also where it is found out with the rules and the shapes.
 // What a shape brings is a warning.
 bool isOfCommandLine(const gable::DiagnosticList& diagnostics) {
-  gable::DiagnosticList errors;
-  std::copy_if(diagnostics.begin(), diagnostics.end(), std::back_inserter(errors),
-               [](const auto& d) { return d.isError(); });
-  return hasCode(errors, {"attribute-value", "picture-settings", "dataset-settings", "tiles-job"});
+  return std::any_of(diagnostics.begin(), diagnostics.end(), [](const auto& d) {
+    return d.isError() &&
+           hasCode({d}, {"attribute-value", "picture-settings", "dataset-settings", "tiles-job"});
+  });
 }
 
 }  // namespace

@@ -268,8 +268,10 @@ void CaseRun::runCase() {
   runSeeds(rulesOfCase, *shapes, derived, *seeds, outcome);
 }
 
-void CaseRun::runSeeds(const Rules& rules, const Shapes& shapes, DeriveSettings& derived,
+void CaseRun::runSeeds(const Rules& rules, const Shapes& shapes, DeriveSettings derived,
                        const std::vector<double>& seeds, const Outcome& loaded) {
+  derived.seed = seeds[0];
+  if (seeds.size() == 1) return runSeed(rules, shapes, derived, loaded);
   // By line: how a statement failed first, and with how many seeds.
   struct Told {
     CaseFailure failure;
@@ -287,10 +289,9 @@ void CaseRun::runSeeds(const Rules& rules, const Shapes& shapes, DeriveSettings&
       Told& t = told.try_emplace(f.line, Told{f, seed, 0}).first->second;
       ++t.seeds;
     }
-    if (seeds.size() > 1) result_.failures.clear();
+    result_.failures.clear();
   }
   for (const auto& [line, t] : told) {
-    if (seeds.size() == 1) break;
     const std::string others = t.seeds > 1 ? " and " + std::to_string(t.seeds - 1) + " more" : "";
     result_.failures.push_back(
         {line, "with seed " + shortestText(t.seed) + others + ": " + t.failure.message});

@@ -41,7 +41,7 @@ class CaseRun {
   void failAt(const char* section, const std::string& message);
   void runCase();
   /// `outcome` has what loading said; the rest of it is of the seed.
-  void runSeeds(const Rules& rules, const Shapes& shapes, DeriveSettings& derived,
+  void runSeeds(const Rules& rules, const Shapes& shapes, DeriveSettings derived,
                 const std::vector<double>& seeds, const Outcome& loaded);
   void runSeed(const Rules& rules, const Shapes& shapes, DeriveSettings derived, Outcome outcome);
   Rules loadRules();

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <set>
 #include <string_view>
 #include <utility>
 
@@ -217,18 +216,23 @@ void bindSettings(const Rules::Impl& rules, const DeriveSettings& settings, Deri
   }
 }
 
-// Rules that shapes name to start with, and that there are none of. What stands on a map was not
-// written for these rules.
-DiagnosticList unknownStarts(const Shapes::Impl& shapes, const Program& program) {
-  DiagnosticList out;
-  if (shapes.ofMap) return out;
+// How many shapes name each rule to start with.
+std::map<std::string, size_t> namedStarts(const Shapes::Impl& shapes) {
   std::map<std::string, size_t> counts;
   for (const ShapeFootprint& f : shapes.footprints) {
     for (const AttributeValue& a : f.attributes) {
       if (namesStartRule(a) && !a.values[0].text.empty()) ++counts[a.values[0].text];
     }
   }
-  for (const auto& [name, count] : counts) {
+  return counts;
+}
+
+// Those that there are none of. What stands on a map was not written for these rules.
+DiagnosticList unknownStarts(const std::map<std::string, size_t>& starts, bool ofMap,
+                             const Program& program) {
+  DiagnosticList out;
+  if (ofMap) return out;
+  for (const auto& [name, count] : starts) {
     if (program.findRule(name) >= 0 || out.size() >= kMostDiagnostics) continue;
     const std::string who = count == 1 ? "a shape names" : std::to_string(count) + " shapes name";
     out.push_back(diagnosticOf(
@@ -369,18 +373,14 @@ bool isReached(const Program& program, const std::string& start) {
 }
 
 // The rules, or those with more, where what they are to start with is not reached in them.
-std::shared_ptr<const Rules::Impl> startedBy(const Rules& rules, const Shapes::Impl& shapes,
+std::shared_ptr<const Rules::Impl> startedBy(const Rules& rules,
+                                             const std::map<std::string, size_t>& starts,
                                              const DeriveSettings& settings) {
   const Program& program = rules.impl().program;
-  if (settings.startRule && !isReached(program, *settings.startRule)) return rules.impl().whole();
-  std::set<std::string_view> seen;
-  for (const ShapeFootprint& f : shapes.footprints) {
-    for (const AttributeValue& a : f.attributes) {
-      if (!namesStartRule(a) || !seen.insert(a.values[0].text).second) continue;
-      if (!isReached(program, a.values[0].text)) return rules.impl().whole();
-    }
-  }
-  return rules.shared();
+  const auto isMissed = [&](const auto& named) { return !isReached(program, named.first); };
+  const bool missed = (settings.startRule && !isReached(program, *settings.startRule)) ||
+                      std::any_of(starts.begin(), starts.end(), isMissed);
+  return missed ? rules.impl().whole() : rules.shared();
 }
 
 }  // namespace
@@ -390,7 +390,8 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
   const double begin = now();
   auto impl = std::make_shared<Model::Impl>();
   if (!rules.impl().ok) return impl;
-  impl->rules = startedBy(rules, shapes.impl(), settings);
+  const std::map<std::string, size_t> starts = namedStarts(shapes.impl());
+  impl->rules = startedBy(rules, starts, settings);
   const Rules::Impl& r = *impl->rules;
   impl->project = r.project;
   if (!r.ok) {
@@ -439,7 +440,7 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
   impl->diagnostics.insert(impl->diagnostics.end(), made.begin(), made.end());
   for (const DiagnosticList& some :
        {outsideValues(initial, r), unusedProperties(shapes.impl(), r),
-        cityRuleNotes(shapes.impl(), r), unknownStarts(shapes.impl(), r.program)}) {
+        cityRuleNotes(shapes.impl(), r), unknownStarts(starts, shapes.impl().ofMap, r.program)}) {
     impl->diagnostics.insert(impl->diagnostics.end(), some.begin(), some.end());
   }
   makeSound(*impl, options);

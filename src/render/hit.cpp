@@ -297,10 +297,6 @@ Surface shellAt(const World& world, const Hit& hit, const Ray& ray, float width)
   return s;
 }
 
-}  // namespace
-
-namespace {
-
 const TriangleSet& setAt(const World& world, const Hit& hit) {
   const uint32_t part = hit.placement == kNone ? 0 : world.placements[hit.placement].part;
   return world.parts[part].set(hit.clear);

@@ -228,7 +228,8 @@ void Analysis::reach(ModuleId main) {
     seen[unit] = true;
     open.push_back(unit);
   };
-  const auto goOn = [&] {
+  const auto visit = [&](size_t root) {
+    find(root);
     while (!open.empty()) {
       const size_t unit = open.back();
       open.pop_back();
@@ -241,16 +242,13 @@ void Analysis::reach(ModuleId main) {
     }
   };
   for (RuleId i = 0; i < program_.rules.size(); ++i) {
-    if (everything_ || program_.rules[i].module == main) find(unitOf(UnitKind::Rule, i));
-    goOn();
+    if (everything_ || program_.rules[i].module == main) visit(unitOf(UnitKind::Rule, i));
   }
   for (FunctionId i = 0; everything_ && i < program_.functions.size(); ++i) {
-    find(unitOf(UnitKind::Function, i));
-    goOn();
+    visit(unitOf(UnitKind::Function, i));
   }
   for (AttributeId i = 0; i < program_.attributes.size(); ++i) {
-    find(unitOf(UnitKind::Attribute, i));
-    goOn();
+    visit(unitOf(UnitKind::Attribute, i));
   }
 }
 

@@ -18,10 +18,6 @@ namespace {
 
 bool isArrayType(ValueType t) { return t >= ValueType::FloatArray; }
 
-}  // namespace
-
-namespace {
-
 // How a value that stands there in letters is written as one of another type; empty where that
 // cannot be.
 std::string otherwiseWritten(const Tree& t, NodeId node, ValueType wanted) {
