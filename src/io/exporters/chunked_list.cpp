@@ -90,7 +90,7 @@ class ChunkWriter {
   void close() {
     std::vector<std::pair<uint64_t, const std::pair<const BatchKey, Batch>*>> batches;
     for (const auto& batch : builder_.batches()) {
-      if (batch.second.geometry->indices.empty()) continue;
+      if (batch.second.empty() || batch.second.geometry->indices.empty()) continue;
       batches.emplace_back(nameOf(plan_, batch.first), &batch);
     }
     // Keys count as this scene happens to; names do not. Two meshes that differ in tags have one.
@@ -117,51 +117,32 @@ class ChunkWriter {
   }
 
   void addTriangles(const Batch& batch, bool hasUvs) {
-    append(bytes_, static_cast<uint32_t>(batch.leaves.size()));
+    const size_t vertices = batch.own.positions.size() / 3;
+    append(bytes_, static_cast<uint32_t>(vertices));
     append(bytes_, static_cast<uint32_t>(batch.own.indices.size()));
-    const size_t runsAt = bytes_.size();
-    append(bytes_, 0);
+    append(bytes_, static_cast<uint32_t>(batch.runs.size()));
     const std::vector<uint32_t>& normals = normals_.number(batch.own.normals);
     append(bytes_, static_cast<uint32_t>(normals_.normals().size() / 3));
     append(bytes_, batch.own.positions);
     append(bytes_, normals_.normals());
     if (hasUvs) append(bytes_, batch.own.uvs);
-    const uint32_t runs = addRuns(batch);
-    std::memcpy(bytes_.data() + runsAt, &runs, sizeof runs);
-    addNumbers(normals, batch.leaves.size());
-    addNumbers(batch.own.indices, batch.leaves.size());
+    append(bytes_, batch.runs);
+    addNumbers(normals, vertices);
+    addNumbers(batch.own.indices, vertices);
   }
 
   // Of vertices or of their normals, of which there are no more than `vertices`.
   void addNumbers(const std::vector<uint32_t>& numbers, size_t vertices) {
     if (vertices > kFewVertices) return append(bytes_, numbers);
-    const std::vector<uint16_t> narrow(numbers.begin(), numbers.end());
-    append(bytes_, narrow);
+    narrow_.assign(numbers.begin(), numbers.end());
+    append(bytes_, narrow_);
     bytes_.append(bytes_.size() % 4, '\0');
-  }
-
-  // Leaf, colour, vertices and corners of what has one leaf and colour; how many there are.
-  uint32_t addRuns(const Batch& batch) {
-    uint32_t runs = 0;
-    size_t index = 0;
-    for (size_t begin = 0, end = 0; begin < batch.leaves.size(); begin = end, ++runs) {
-      const auto isSame = [&](size_t v) {
-        return batch.leaves[v] == batch.leaves[begin] && batch.colors[v] == batch.colors[begin];
-      };
-      for (end = begin + 1; end < batch.leaves.size() && isSame(end);) ++end;
-      const size_t firstIndex = index;
-      while (index < batch.own.indices.size() && batch.own.indices[index] < end) ++index;
-      append(bytes_, static_cast<uint32_t>(batch.leaves[begin]));
-      append(bytes_, batch.colors[begin]);
-      append(bytes_, static_cast<uint32_t>(end - begin));
-      append(bytes_, static_cast<uint32_t>(index - firstIndex));
-    }
-    return runs;
   }
 
   const DrawPlan& plan_;
   BatchBuilder builder_;
   NormalTable normals_;
+  std::vector<uint16_t> narrow_;
   std::vector<Piece> pieces_;
   std::vector<size_t> ends_;
   std::string bytes_;

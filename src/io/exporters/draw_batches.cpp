@@ -45,9 +45,36 @@ void addMatrix(std::vector<float>& out, const Leaf& leaf, const Frame& world, bo
 
 }  // namespace
 
+void Batch::addRun(const BatchRun& run) {
+  if (run.vertices == 0) return;
+  if (!runs.empty() && runs.back().leaf == run.leaf && runs.back().color == run.color) {
+    runs.back().vertices += run.vertices;
+    runs.back().corners += run.corners;
+  } else {
+    runs.push_back(run);
+  }
+}
+
+void Batch::spreadRuns() {
+  for (const BatchRun& run : runs) {
+    leaves.resize(leaves.size() + run.vertices, static_cast<float>(run.leaf));
+    colors.resize(colors.size() + run.vertices, run.color);
+  }
+}
+
+void Batch::clear() {
+  own.positions.clear();
+  own.normals.clear();
+  own.uvs.clear();
+  own.indices.clear();
+  runs.clear();
+  leaves.clear();
+  colors.clear();
+  matrices.clear();
+}
+
 void BatchBuilder::clear() {
-  batches_.clear();
-  last_ = nullptr;
+  for (auto& [key, batch] : batches_) batch.clear();
 }
 
 // Memory for all that it will hold is taken once.
@@ -106,10 +133,11 @@ void BatchBuilder::add(const Leaf& leaf, const Frame& world, uint32_t number) {
         batchOf(DrawPlan::keyOf(leaf, part.slot, often, plan_.paint(paint).group), paint);
     const bool laid = plan_.isLaidPaint(paint);
     if (!often) {
+      const size_t vertices = batch.own.positions.size() / 3, corners = batch.own.indices.size();
       addPart(batch.own, leaf.mesh, surface, part, world, leaf.scale, laid);
-      const size_t vertices = batch.own.positions.size() / 3;
-      batch.leaves.resize(vertices, narrow(number));
-      batch.colors.resize(vertices, plan_.paint(paint).color);
+      batch.addRun({number, plan_.paint(paint).color,
+                    static_cast<uint32_t>(batch.own.positions.size() / 3 - vertices),
+                    static_cast<uint32_t>(batch.own.indices.size() - corners)});
       continue;
     }
     if (batch.geometry->positions.empty()) {

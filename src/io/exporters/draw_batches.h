@@ -19,15 +19,30 @@ struct DrawGeometry {
   std::vector<uint32_t> indices;
 };
 
+/// Vertices and corners that follow each other in a batch and have one leaf and colour.
+struct BatchRun {
+  uint32_t leaf = 0, color = 0;
+  uint32_t vertices = 0, corners = 0;
+};
+
 /// Triangles in the world; or, of instances, one geometry and where it stands.
 struct Batch {
   DrawGeometry own;
   /// What is drawn: `own`, or what all instances have in common.
   DrawGeometry* geometry = nullptr;
-  /// A vertex or an instance.
+  /// Of triangles.
+  std::vector<BatchRun> runs;
+  /// Each instance; each vertex where spreadRuns() was called.
   std::vector<float> leaves;
   std::vector<uint32_t> colors;
   std::vector<float> matrices;
+
+  bool empty() const { return runs.empty() && leaves.empty(); }
+  void addRun(const BatchRun& run);
+  /// The leaf and the colour of each vertex, out of the runs.
+  void spreadRuns();
+  /// Keeps its memory, and the geometry of instances.
+  void clear();
 };
 
 class BatchBuilder {
@@ -37,13 +52,13 @@ class BatchBuilder {
 
   /// `number`: what the triangles of the leaf say that they belong to.
   void add(const Leaf& leaf, const Frame& world, uint32_t number);
-  /// By keys whose look is the group of its paint.
+  /// By keys whose look is the group of its paint. Some may be empty.
   std::map<BatchKey, Batch>& batches() { return batches_; }
   /// Of each look a paint that has it, as they came.
   const std::vector<uint32_t>& looks() const { return looks_; }
   /// Of the batches of instances.
   const std::map<BatchKey, DrawGeometry>& geometries() const { return geometries_; }
-  /// Begins new batches; geometries stay.
+  /// Begins all batches anew, in the memory that they have; geometries stay.
   void clear();
 
  private:

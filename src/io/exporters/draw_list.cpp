@@ -152,6 +152,7 @@ std::string drawList(const Scene& scene, unsigned jobs) {
                   [&](const Leaf& leaf, const Frame& world, uint64_t number, size_t) {
                     parts[i].add(leaf, world, static_cast<uint32_t>(number));
                   });
+    for (auto& [key, batch] : parts[i].batches()) batch.spreadRuns();
   });
   return Joiner(plan, parts).bytes();
 }
