@@ -321,10 +321,10 @@ class Folding {
 // Goes through the rules that are not left out.
 class Within {
  public:
-  Within(const Program& program, uint32_t effects)
+  Within(const Program& program, const std::vector<CodeUnit>& units, uint32_t effects)
       : program_(program),
         effects_(effects),
-        units_(Units(program).take()),
+        units_(units),
         folding_(units_, program.attributes.size()),
         met_(program.rules.size()),
         bits_((program.attributes.size() + 63) / 64) {}
@@ -388,7 +388,7 @@ class Within {
 
   const Program& program_;
   const uint32_t effects_;
-  const std::vector<CodeUnit> units_;
+  const std::vector<CodeUnit>& units_;
   Folding folding_;
   std::vector<bool> met_;
   std::vector<uint32_t> open_;
@@ -398,8 +398,19 @@ class Within {
 
 }  // namespace
 
-std::vector<Reach> reachOf(const Program& program) {
-  const std::vector<CodeUnit> units = Units(program).take();
+struct Reaches::Impl {
+  const Program& program;
+  std::vector<CodeUnit> units;
+};
+
+Reaches::Reaches(const Program& program)
+    : impl_(std::make_unique<const Impl>(Impl{program, Units(program).take()})) {}
+
+Reaches::~Reaches() = default;
+
+std::vector<Reach> Reaches::all() const {
+  const std::vector<CodeUnit>& units = impl_->units;
+  const Program& program = impl_->program;
   Folding folding(units, program.attributes.size());
   std::vector<Reach> out(program.rules.size());
   for (uint32_t r = 0; r < out.size(); ++r) {
@@ -411,8 +422,8 @@ std::vector<Reach> reachOf(const Program& program) {
   return out;
 }
 
-Reach reachWithin(const Program& program, std::span<const uint32_t> roots, uint32_t effects) {
-  return Within(program, effects).of(roots);
+Reach Reaches::within(std::span<const uint32_t> roots, uint32_t effects) const {
+  return Within(impl_->program, impl_->units, effects).of(roots);
 }
 
 }  // namespace gable

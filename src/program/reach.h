@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -24,13 +25,25 @@ struct Reach {
   bool setsAttributes = false;
 };
 
-/// By rule of the program. O(code + calls + rules * attributes).
-std::vector<Reach> reachOf(const Program& program);
+/// The reaches of a program, which reads its code once. The program must outlive it.
+class Reaches {
+ public:
+  explicit Reaches(const Program& program);
+  ~Reaches();
+  Reaches(const Reaches&) = delete;
+  Reaches& operator=(const Reaches&) = delete;
 
-/// What the rules `roots` do where rules that have none of the effects, nor lead to any that has,
-/// are left out, as in the pass that finds out who asks for room; within operations that gather
-/// nothing is left out. The values that attributes start with count where something reads them.
-/// Places in the text count for operations that ask for room, which are told by them.
-Reach reachWithin(const Program& program, std::span<const uint32_t> roots, uint32_t effects);
+  /// By rule of the program. O(code + calls + rules * attributes).
+  std::vector<Reach> all() const;
+  /// What the rules `roots` do where rules that have none of the effects, nor lead to any that has,
+  /// are left out, as in the pass that finds out who asks for room; within operations that gather
+  /// nothing is left out. The values that attributes start with count where something reads them.
+  /// Places in the text count for operations that ask for room, which are told by them.
+  Reach within(std::span<const uint32_t> roots, uint32_t effects) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<const Impl> impl_;
+};
 
 }  // namespace gable

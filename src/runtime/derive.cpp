@@ -524,16 +524,18 @@ void tellRooms(const Pass& pass, const RoomPlan& rooms, const DeriveShared& shar
 void prepareRecall(DeriveShared& shared, const Way& way, const std::vector<InitialShape>& shapes) {
   const auto task = [&](size_t i, unsigned) {
     if (i == 0) {
-      shared.reach = reachOf(shared.program);
-    } else if (i == 1) {
+      const Reaches reaches(shared.program);
+      shared.reach = reaches.all();
+      if (way.asksForRoom) {
+        shared.roomKey = roomKey(shared.program, reaches, shapes, shared.options);
+      }
+    } else {
       shared.before = recallInput(shared.options.before, shared.program, shared.environment,
                                   std::move(shared.spare.bare));
-    } else {
-      shared.roomKey = roomKey(shared.program, shapes, shared.options);
     }
   };
   // Threads are worth it where there is a scene to look into.
-  parallelFor(way.asksForRoom ? 3 : 2, shared.options.before ? way.jobs : 1, task);
+  parallelFor(2, shared.options.before ? way.jobs : 1, task);
 }
 
 // What the workers made together; null where it is not what one alone would have made.

@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "base/hash.h"
-#include "program/reach.h"
 #include "runtime/key_hash.h"
 #include "shape/geo_frame.h"
 
@@ -75,7 +74,8 @@ void addShape(KeyHash& h, Given& given, const InitialShape& s) {
 
 }  // namespace
 
-std::optional<ShareKey> roomKey(const Program& program, const std::vector<InitialShape>& shapes,
+std::optional<ShareKey> roomKey(const Program& program, const Reaches& reaches,
+                                const std::vector<InitialShape>& shapes,
                                 const DeriveOptions& options) {
   std::vector<uint32_t> roots;
   for (const InitialShape& s : shapes) {
@@ -84,7 +84,7 @@ std::optional<ShareKey> roomKey(const Program& program, const std::vector<Initia
     const int32_t root = s.startRule.empty() ? options.startRule : program.findRule(s.startRule);
     if (root >= 0) roots.push_back(static_cast<uint32_t>(root));
   }
-  const Reach reach = reachWithin(program, roots, kAsksForRoom | kLabels);
+  const Reach reach = reaches.within(roots, kAsksForRoom | kLabels);
   KeyHash h;
   h.add(reach.code);
   h.add(options.seed);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "program/reach.h"
 #include "runtime/derive.h"
 #include "runtime/key_numbers.h"
 
@@ -15,8 +16,9 @@ namespace gable {
 
 /// Of the pass before that collects claims: its rules, the attributes that they read, the initial
 /// shapes, the limits on counts. None where it cannot be told. Only derivations in the same
-/// environment can be compared.
-std::optional<ShareKey> roomKey(const Program& program, const std::vector<InitialShape>& shapes,
+/// environment can be compared. `reaches`: of the program.
+std::optional<ShareKey> roomKey(const Program& program, const Reaches& reaches,
+                                const std::vector<InitialShape>& shapes,
                                 const DeriveOptions& options);
 
 }  // namespace gable

@@ -579,7 +579,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 uint64_t reachOfRule(const Rules& rules, const std::string& name) {
   const Program& p = rules.impl().program;
-  return reachOf(p)[static_cast<size_t>(p.findRule(name))].code;
+  return Reaches(p).all()[static_cast<size_t>(p.findRule(name))].code;
 }
 
 TEST(Reach, followsCallsFunctionsAndAttributes) {
