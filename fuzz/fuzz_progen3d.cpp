@@ -48,7 +48,8 @@ void checkTree(const std::string& text) {
   GABLE_CHECK(!diagnostics.hasErrors());
   GABLE_CHECK(lang::sameTree(tree, again));
   ValuePool values;
-  lang::AnalysisInput input{std::move(tree), "fuzz.grammar", ""};
+  lang::AnalysisInput input{std::make_shared<const lang::Tree>(std::move(tree)), "fuzz.grammar",
+                            ""};
   (void)lang::analyse(std::move(input), builtinCatalogue(), values, nullptr, sources, diagnostics);
   GABLE_CHECK(!diagnostics.hasErrors());
 }

@@ -63,7 +63,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   checkFormat(sources, file, tree);
   ValuePool values;
   SelfLoader loader(text);
-  lang::AnalysisInput input{std::move(tree), "fuzz.cga", ""};
+  lang::AnalysisInput input{std::make_shared<const lang::Tree>(std::move(tree)), "fuzz.cga", ""};
   (void)lang::analyse(std::move(input), builtinCatalogue(), values, &loader, sources, diagnostics);
   for (const Diagnostics::Entry& d : diagnostics.all()) (void)format(d, sources);
   return 0;

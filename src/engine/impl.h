@@ -48,6 +48,9 @@ struct Rules::Impl {
   DiagnosticList diagnostics;
   std::shared_ptr<ValuePool> pool;
   Sources sources;
+  /// By file of the sources, so that the rules that come next need not parse it again; null where
+  /// its text is not Gable's own language or something was told of it.
+  std::vector<lang::TreeRef> trees;
   Program program;
   std::shared_ptr<Project> project;
   /// The pool with the tables of derivations. Shared with the rules that came before, so that what

@@ -43,10 +43,20 @@ lang::Tree parseAs(const Dialect* dialect, const Sources& sources, uint32_t file
   return dialect->parse({sources, file, builtinCatalogue(), &loader}, diagnostics);
 }
 
+// The tree of the same text at the same place among the rules before; null where there is none.
+lang::TreeRef knownTree(const Rules::Impl* before, const Sources& sources, uint32_t file) {
+  if (!before || file >= before->trees.size() || !before->trees[file]) return nullptr;
+  const bool isSame = before->sources.path(file) == sources.path(file) &&
+                      before->sources.text(file) == sources.text(file);
+  return isSame ? before->trees[file] : nullptr;
+}
+
 class ProjectLoader final : public lang::FileLoader {
  public:
   ProjectLoader(const Project& project, const LoadSettings& settings)
-      : project_(project), settings_(settings) {}
+      : project_(project),
+        settings_(settings),
+        before_(settings.before ? settings.before->shared().get() : nullptr) {}
 
   Result<File> load(const std::string& path, const std::string& importer) override {
     std::string file = project_.locate(path, importer);
@@ -81,13 +91,32 @@ class ProjectLoader final : public lang::FileLoader {
     return project_.filesIn(folder);
   }
 
-  lang::Tree parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics) override {
-    return parseAs(dialectOfPath(sources.path(file)), sources, file, *this, diagnostics);
+  lang::TreeRef parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics) override {
+    return parse(dialectOfPath(sources.path(file)), sources, file, diagnostics);
   }
+
+  /// Trees of Gable's own language are kept where nothing was told of their text.
+  lang::TreeRef parse(const Dialect* dialect, const Sources& sources, uint32_t file,
+                      Diagnostics& diagnostics) {
+    lang::TreeRef tree = dialect ? nullptr : knownTree(before_, sources, file);
+    if (!tree) {
+      const size_t told = diagnostics.all().size();
+      tree =
+          std::make_shared<const lang::Tree>(parseAs(dialect, sources, file, *this, diagnostics));
+      if (dialect || diagnostics.all().size() != told) return tree;
+    }
+    trees_.resize(std::max<size_t>(trees_.size(), file + size_t{1}));
+    trees_[file] = tree;
+    return tree;
+  }
+
+  std::vector<lang::TreeRef> takeTrees() { return std::move(trees_); }
 
  private:
   const Project& project_;
   const LoadSettings& settings_;
+  const Rules::Impl* const before_;
+  std::vector<lang::TreeRef> trees_;
   std::vector<AssetUse> assets_;
   std::set<std::string> known_;
 };
@@ -185,7 +214,7 @@ bool isHandedDown(const lang::ResolvedProgram& from, lang::ModuleId module, std:
 void describe(Rules::Impl& to, const lang::ResolvedProgram& from) {
   for (const lang::Module& m : from.modules) {
     if (m.dynamic) continue;
-    const lang::Tree& t = from.units[m.unit].tree;
+    const lang::Tree& t = *from.units[m.unit].tree;
     for (const lang::NodeId id : t.children(t.root())) {
       if (t.kind(id) != lang::NodeKind::Import || t.child(id, 1) == lang::kNoNode) continue;
       std::string name(t.text(id));
@@ -277,7 +306,7 @@ std::shared_ptr<const Rules::Impl> parsed(const std::string& text, const Home& h
   const std::string name = impl->project->projectPath(path);
   const uint32_t file = impl->sources.add(name, text);
   ProjectLoader loader(*impl->project, settings);
-  lang::Tree tree = parseAs(dialect.value(), impl->sources, file, loader, diagnostics);
+  lang::TreeRef tree = loader.parse(dialect.value(), impl->sources, file, diagnostics);
   if (!settings.dialect) {
     if (const auto other =
             asOtherNotation(path, dialect.value(), impl->sources, file, loader, diagnostics)) {
@@ -292,6 +321,7 @@ std::shared_ptr<const Rules::Impl> parsed(const std::string& text, const Home& h
   diagnostics = inWordsOf(impl->dialect, file, diagnostics, impl->sources, builtinCatalogue());
   describe(*impl, resolved);
   impl->assets = loader.takeAssets();
+  impl->trees = loader.takeTrees();
   if (!diagnostics.hasErrors()) {
     impl->program =
         lang::compile(resolved, builtinCatalogue(), impl->pool, impl->sources, diagnostics);

@@ -234,6 +234,9 @@ class Tree {
   std::unordered_map<std::string_view, uint32_t> textIds_;
 };
 
+/// A tree that several analyses may hold, one after the other.
+using TreeRef = std::shared_ptr<const Tree>;
+
 // Names for the fixed children of the table above.
 inline NodeId annotationsOf(const Tree& t, NodeId declaration) { return t.child(declaration, 0); }
 inline NodeId paramsOf(const Tree& t, NodeId declaration) { return t.child(declaration, 1); }

@@ -80,7 +80,12 @@ class Library::Loader final : public lang::FileLoader {
     return library_.files_->filesIn(folder, importer);
   }
 
-  lang::Tree parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics) override {
+  lang::TreeRef parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics) override {
+    return std::make_shared<const lang::Tree>(treeOf(sources, file, diagnostics));
+  }
+
+ private:
+  lang::Tree treeOf(const Sources& sources, uint32_t file, Diagnostics& diagnostics) {
     const std::string& path = sources.path(file);
     if (const Dialect* dialect = dialectOfPath(path)) {
       return dialect->parse({sources, file, library_.catalogue_, this}, diagnostics);
@@ -98,7 +103,6 @@ class Library::Loader final : public lang::FileLoader {
     return known->tree.copy(file);
   }
 
- private:
   Library& library_;
   Snapshot& snapshot_;
 };

@@ -66,7 +66,7 @@ struct Snapshot {
 
   const std::string& path(uint32_t unit) const { return program.units[unit].path; }
   std::string_view text(uint32_t unit) const { return sources.text(program.units[unit].file); }
-  const lang::Tree& tree(uint32_t unit) const { return program.units[unit].tree; }
+  const lang::Tree& tree(uint32_t unit) const { return *program.units[unit].tree; }
 };
 
 class Library {

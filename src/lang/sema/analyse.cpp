@@ -459,7 +459,7 @@ void Analysis::addImportedStyles() {
 }
 
 ResolvedProgram Analysis::run(AnalysisInput input) {
-  const uint32_t file = input.tree.file();
+  const uint32_t file = input.tree->file();
   unitByPath_.emplace(input.path, 0);
   program_.units.push_back({std::move(input.path), file, std::move(input.tree)});
   units_.emplace_back();

@@ -45,7 +45,7 @@ class FileLoader {
   /// What to write in the place of the name of a material that there is not.
   virtual std::string materialHint(const std::string& name);
   /// The tree of a file that load gave: its notation may be another than this language's.
-  virtual Tree parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics);
+  virtual TreeRef parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics);
   /// The files of the project that a folder such as "/gable/" names, as rules write them: with that
   /// folder before them. Empty for a folder that names none.
   virtual std::vector<std::string> filesIn(const std::string& folder, const std::string& importer);
@@ -53,7 +53,7 @@ class FileLoader {
 
 struct AnalysisInput {
   /// The main file, parsed, and its path.
-  Tree tree;
+  TreeRef tree;
   std::string path;
   /// The style to derive; "" and "Default" are the same.
   std::string style;

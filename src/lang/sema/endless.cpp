@@ -139,7 +139,7 @@ void Analysis::checkEndlessRules(ModuleId firstModule) {
 }
 
 void Analysis::reportEmptyFile() {
-  const Tree& t = program_.units[0].tree;
+  const Tree& t = *program_.units[0].tree;
   if (!t.children(t.root()).empty() || diagnostics_.hasErrors()) return;
   error("empty-file", {t.file(), 0, 0}, "the file has no rules", "write one: Lot --> extrude(10)");
 }

@@ -58,7 +58,7 @@ const AttributeInfo* Analysis::attributeAt(NodeId node) const {
 std::string Analysis::typeRemedy(const AttributeInfo& a, ValueType wanted) const {
   const bool own = a.source == ValueSource::Own;
   const uint32_t unit = program_.modules[own ? a.valueModule : a.module].unit;
-  const Tree& t = program_.units[unit].tree;
+  const Tree& t = *program_.units[unit].tree;
   const Span place = t.span(own && a.valueNode != kNoNode ? a.valueNode : a.node);
   const LineColumn at = sources_.locate(place.file, place.begin);
   const std::string line = sources_.path(place.file) + ':' + std::to_string(at.line);

@@ -27,7 +27,8 @@ void analysed(const std::string& text, Diagnostics& diagnostics) {
   Sources sources;
   ValuePool values;
   const uint32_t file = sources.add("main.cga", text);
-  AnalysisInput input{parse(sources, file, diagnostics), "main.cga", {}};
+  AnalysisInput input{
+      std::make_shared<const Tree>(parse(sources, file, diagnostics)), "main.cga", {}};
   analyse(std::move(input), testCatalogue(), values, nullptr, sources, diagnostics);
   diagnostics.sortByPlace();
 }

@@ -32,7 +32,7 @@ std::string prefixOf(std::string_view name) { return std::string(name.substr(0, 
 // "2019.1"; the part behind a second dot does not count.
 void Analysis::readVersion(uint32_t unit, NodeId node) {
   constexpr double kKnown = 2025.1;
-  const Tree& t = program_.units[unit].tree;
+  const Tree& t = *program_.units[unit].tree;
   const std::string_view text = t.text(node);
   double year = 0, part = 0;
   size_t dots = 0;
@@ -90,7 +90,7 @@ std::vector<bool> stylesToDefault(const Index& index) {
 }  // namespace
 
 void Analysis::indexUnit(uint32_t unit) {
-  const Tree& t = program_.units[unit].tree;
+  const Tree& t = *program_.units[unit].tree;
   UnitIndex& index = units_[unit];
   const auto addStyle = [&](StyleInfo style) {
     index.styleNumbers.emplace(style.name, index.styles.size());
@@ -184,8 +184,8 @@ std::string FileLoader::materialHint(const std::string&) {
   return "'gable asset material' lists them";
 }
 
-Tree FileLoader::parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics) {
-  return lang::parse(sources, file, diagnostics);
+TreeRef FileLoader::parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics) {
+  return std::make_shared<const Tree>(lang::parse(sources, file, diagnostics));
 }
 
 namespace {
@@ -244,7 +244,7 @@ uint32_t Analysis::loadUnit(const std::string& path, Span from, uint32_t importe
   }
   const auto unit = static_cast<uint32_t>(program_.units.size());
   const uint32_t id = sources_.add(file->path, std::move(file->text));
-  Tree t = loader_->parse(sources_, id, diagnostics_);
+  TreeRef t = loader_->parse(sources_, id, diagnostics_);
   unitByPath_.emplace(file->path, unit);
   program_.units.push_back({file->path, id, std::move(t)});
   units_.emplace_back();
@@ -257,7 +257,7 @@ void Analysis::loadImports(uint32_t unit, std::vector<uint32_t>& open) {
   open.push_back(unit);
   for (size_t i = 0; i < units_[unit].imports.size(); ++i) {
     const NodeId import = units_[unit].imports[i].node;
-    const Tree& t = program_.units[unit].tree;
+    const Tree& t = *program_.units[unit].tree;
     const NodeId path = t.child(import, 1);
     if (path == kNoNode) continue;
     const uint32_t target = loadUnit(std::string(t.text(path)), t.span(path), unit, open);
@@ -280,7 +280,7 @@ ModuleId Analysis::addModule(uint32_t unit, std::string path, std::string style,
   m.importNode = importNode;
   m.dynamic = dynamic;
   m.original = id;
-  const size_t nodes = program_.units[unit].tree.size();
+  const size_t nodes = program_.units[unit].tree->size();
   nodes_ += nodes;
   m.resolutions.resize(nodes);
   m.types.resize(nodes, ValueType::Null);
@@ -330,7 +330,7 @@ RuleId Analysis::addRule(ModuleId owner, NodeId node, std::string name, const An
 
 void Analysis::declareRules(ModuleId module, const StyleRanks& ranks) {
   const uint32_t unit = program_.modules[module].unit;
-  const Tree& t = program_.units[unit].tree;
+  const Tree& t = *program_.units[unit].tree;
   std::map<std::pair<std::string_view, size_t>, size_t> best;
   const auto keyOf = [&](const Declaration& d) {
     return std::pair(t.text(d.node), t.children(paramsOf(t, d.node)).size());
@@ -393,7 +393,7 @@ void Analysis::warnOfStyles(const Tree& t, const std::vector<Declaration>& rules
 
 void Analysis::declareFunctions(ModuleId module, const StyleRanks& ranks) {
   const uint32_t unit = program_.modules[module].unit;
-  const Tree& t = program_.units[unit].tree;
+  const Tree& t = *program_.units[unit].tree;
   std::map<std::pair<std::string_view, size_t>, size_t> best;
   const auto keyOf = [&](const Declaration& d) {
     return std::pair(t.text(d.node), t.children(paramsOf(t, d.node)).size());
@@ -427,7 +427,7 @@ void Analysis::declareFunctions(ModuleId module, const StyleRanks& ranks) {
 
 void Analysis::declareAttributes(ModuleId module, const StyleRanks& ranks) {
   const uint32_t unit = program_.modules[module].unit;
-  const Tree& t = program_.units[unit].tree;
+  const Tree& t = *program_.units[unit].tree;
   // The declarations of each name, those of the nearest style first.
   std::unordered_map<std::string_view, RankedDeclarations> known;
   for (const Declaration& d : units_[unit].attributes) {
@@ -523,7 +523,7 @@ std::string Analysis::styleOfImport(ModuleId importer, NodeId import, uint32_t u
 
 bool Analysis::tooManyModules(uint32_t unit) const {
   return program_.modules.size() >= kMaxModules ||
-         nodes_ + program_.units[unit].tree.size() > kMaxModuleNodes;
+         nodes_ + program_.units[unit].tree->size() > kMaxModuleNodes;
 }
 
 void Analysis::addImports(ModuleId module) {

@@ -131,7 +131,7 @@ AttributeId Analysis::attributeNamed(ModuleId module, std::string_view name) con
 bool Analysis::ruleInAnyStyle(ModuleId module, std::string_view name) const {
   const auto [owner, rest] = enter(module, name);
   const uint32_t unit = program_.modules[owner].unit;
-  const Tree& t = program_.units[unit].tree;
+  const Tree& t = *program_.units[unit].tree;
   const std::vector<Declaration>& rules = units_[unit].rules;
   return std::any_of(rules.begin(), rules.end(),
                      [&, key = rest](const Declaration& d) { return t.text(d.node) == key; });

@@ -91,7 +91,7 @@ struct Resolution {
 struct Unit {
   std::string path;
   uint32_t file = Span::kNoFile;
-  Tree tree;
+  TreeRef tree;
 };
 
 /// One use of a unit.
@@ -244,7 +244,7 @@ struct ResolvedProgram {
   RuleId startRule = kNone;
   std::string description;
 
-  const Tree& tree(ModuleId module) const { return units[modules[module].unit].tree; }
+  const Tree& tree(ModuleId module) const { return *units[modules[module].unit].tree; }
   /// The dynamic import at a node; null if there is none.
   const DynamicImport* dynamicImport(ModuleId module, NodeId node) const;
   /// The rule of the main file, or of an import by its qualified name, with that many parameters;

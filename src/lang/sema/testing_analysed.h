@@ -34,7 +34,8 @@ struct Analysed {
                     std::string style = "") {
     loader.files = std::move(files);
     const uint32_t file = sources.add("main.cga", text);
-    AnalysisInput input{parse(sources, file, diagnostics), "main.cga", std::move(style)};
+    AnalysisInput input{std::make_shared<const Tree>(parse(sources, file, diagnostics)), "main.cga",
+                        std::move(style)};
     program = analyse(std::move(input), testCatalogue(), values, &loader, sources, diagnostics);
     diagnostics.sortByPlace();
   }

@@ -15,9 +15,9 @@ namespace gable::lang {
 bool Analysis::runsInPlace() {
   if (inPlace_) return *inPlace_;
   inPlace_ = std::any_of(program_.units.begin(), program_.units.end(), [&](const Unit& unit) {
-    for (NodeId n = 1; n < unit.tree.size(); ++n) {
+    for (NodeId n = 1; n < unit.tree->size(); ++n) {
       work();
-      if (unit.tree.kind(n) == NodeKind::Apply && unit.tree.text(n) == "do") return true;
+      if (unit.tree->kind(n) == NodeKind::Apply && unit.tree->text(n) == "do") return true;
     }
     return false;
   });
