@@ -154,7 +154,7 @@ ShareKey IncrementalCache::keyOf(const Call& call) {
   addShape(h, call.shape, call.locals);
   h.add(uint64_t{call.shape.attributes});
   for (const Value& v : call.arguments) h.add(v.hash());
-  if (call.path != 0) h.add(call.path);
+  if (call.place != 0) h.add(call.place);
   return h.key();
 }
 

@@ -64,12 +64,13 @@ class IncrementalCache {
     const Shape& shape;
     std::span<const Value> arguments;
     const LocalValues& locals;
-    /// A hash of its path, where the rule asks for that.
-    uint64_t path = 0;
+    /// A hash of its place among the calls, where what comes of it depends on that.
+    uint64_t place = 0;
   };
   ShareKey keyOf(const Call& call);
   /// What tells whether a part is whole and silent, and where it is.
   struct Moment {
+    /// What was told by now, and what will be told of shapes that nobody gave room.
     uint64_t warnings = 0;
     /// Holes that were placed in the unit by now: those of portions, and all.
     size_t portions = 0, holes = 0;

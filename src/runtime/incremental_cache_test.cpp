@@ -40,8 +40,8 @@ class IncrementalCacheTest : public testing::Test {
     cache = make(thrownAway);
   }
   ShareKey keyOf(uint32_t rule, std::vector<Value> arguments = {}, uint32_t depth = 1,
-                 uint64_t path = 0) {
-    return cache->keyOf({rule, depth, shape, arguments, locals, path});
+                 uint64_t place = 0) {
+    return cache->keyOf({rule, depth, shape, arguments, locals, place});
   }
   void makeLeaves(int count) {
     for (int i = 0; i < count; ++i) output.openLeaves.emplace_back();

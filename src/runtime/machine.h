@@ -238,6 +238,7 @@ class Machine final : public Services, private WorkMeter {
   /// What is made now stays as it is, in the world.
   bool worksInTheOpen() const { return !prototypes_.anyOpen() && !gathers_.anyOpen(); }
   IncrementalCache::Moment moment() const;
+  std::optional<uint64_t> placeInKey(const Activation& call) const;
   /// True when the call's result was known and lies in the output.
   bool beginPart(Activation& call);
   Status applyRemembering(OpCall& call, const Instruction& i, std::span<const Value> arguments,

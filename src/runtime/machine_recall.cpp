@@ -9,24 +9,39 @@
 #include <algorithm>
 
 #include "base/work_count.h"
+#include "runtime/key_hash.h"
 #include "runtime/machine.h"
 
 namespace gable {
 
 IncrementalCache::Moment Machine::moment() const {
-  return {log_.warnings(), holes_.portions(), holes_.placed()};
+  return {log_.warnings() + strangers_, holes_.portions(), holes_.placed()};
+}
+
+// Of the place of a call, where what comes of it depends on that; 0 where it does not. Who has room
+// is known by the place, and is the same where what asks for room is.
+std::optional<uint64_t> Machine::placeInKey(const Activation& call) const {
+  const uint32_t effects = program_.rules[call.rule].reads.effects;
+  KeyHash h;
+  if ((effects & kReadsPath) != 0) h.add(hashBytes(treeKey()));
+  if ((effects & kAsksForRoom) != 0) {
+    if (!shared_.roomKey) return {};
+    h.add(shared_.roomKey->a);
+    h.add(shared_.roomKey->b);
+    h.add(uint64_t{info_.index});
+    for (const uint32_t step : placePath(activationCount_)) h.add(uint64_t{step});
+    h.add(uint64_t{call.steps});
+  }
+  return (effects & (kReadsPath | kAsksForRoom)) != 0 ? h.key().a | 1 : 0;
 }
 
 bool Machine::beginPart(Activation& call) {
   const bool due = !isFirstPass() && worksInTheOpen() && !aborted_;
   if (!due || !incremental_->isRuleDue(call.rule)) return false;
-  const uint32_t effects = program_.rules[call.rule].reads.effects;
-  // What came of it depends on shapes anywhere.
-  if ((effects & kAsksForRoom) != 0) return false;
-  const bool asksForPath = (effects & kReadsPath) != 0;
-  const ShareKey key =
-      incremental_->keyOf({call.rule, call.depth, call.shape, stack_.from(call.parameters), locals_,
-                           asksForPath ? hashBytes(treeKey()) | 1 : 0});
+  const std::optional<uint64_t> place = placeInKey(call);
+  if (!place) return false;
+  const ShareKey key = incremental_->keyOf(
+      {call.rule, call.depth, call.shape, stack_.from(call.parameters), locals_, *place});
   if (const RecallPart* const taken = incremental_->beginPart(key, call.rule, moment())) {
     holes_.fill(*taken, prototypes_.placeInUnit(), log_.count());
     tick(0);

@@ -207,6 +207,28 @@ TEST(Recall, whoHasRoomIsFoundOutAnewOnlyWhereAnEditChangesThat) {
   EXPECT_NE(rooms(place.next(rules)), before);
 }
 
+// What asks for room is taken over as well, where all have the room that they had.
+TEST(Recall, whatAsksForRoomIsTakenOver) {
+  const std::string rules =
+      replaced(kRoomy, "{ ~20 : Block }*", "{ ~20 : Block | ~20 : Yard }*") +
+      "Yard --> split(z) { ~0.5 : split(x) { ~0.5 : Plant }* }*\n"
+      "Plant --> s(0.8, 0, 0.8) center(xz) ifFree(\"post\") { Pole | otherwise : Weed. }\n";
+  for (const int jobs : {1, 3}) {
+    Edited place(Shapes::lot(80, 30));
+    place.settings.jobs = jobs;
+    place.next(rules);
+    for (const char* pitch : {"40", "20"}) {
+      const std::string edited = replaced(rules, "pitch = 30", std::string("pitch = ") + pitch);
+      const Model model = place.next(edited);
+      EXPECT_EQ(shown(model), shown(place.fresh(edited))) << pitch << " " << jobs;
+      EXPECT_GT(recalled(model), shapesOf(model) * 2 / 3) << pitch << " " << jobs;
+    }
+    const std::string posts = replaced(rules, "s(1, 1, 1)", "s(2, 1, 1)");
+    EXPECT_EQ(shown(place.next(posts)), shown(place.fresh(posts))) << jobs;
+    EXPECT_EQ(shown(place.next(rules)), shown(place.fresh(rules))) << jobs;
+  }
+}
+
 // Parts beside, around and within each other, one edit after the other: each takes over what the
 // one before had taken over already.
 TEST(Recall, whatWasTakenOverIsTakenOverAgain) {
@@ -337,6 +359,44 @@ Lot --> split(x) { ~8 : h(storey = 3).House | ~9 : h(storey = 2).House }*
     place.options().overlay = {{"house.cga", replaced(house, from, to)}};
     const Model model = place.next(main);
     EXPECT_EQ(shown(model), shown(place.fresh(main)));
+  }
+  fs::remove_all(folder);
+}
+
+// Trees are kept from text to text; what was told of one is told again.
+TEST(Recall, filesThatAreReadAgainMeanWhatTheySay) {
+  const fs::path folder =
+      fs::path(testing::TempDir()) / ("gable-recall-files-" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / "house.cga") << "House --> Leaf.\n";
+  std::ofstream(folder / "roof.cga") << "Roof --> Tiles.\n";
+  LoadSettings options;
+  options.project = folder.string();
+  const std::string path = (folder / "main.cga").string();
+  const auto read = [&](const std::string& main, const Rules* before) {
+    LoadSettings own = options;
+    own.before = before;
+    return Rules::parse(main, path, own);
+  };
+  const auto seen = [](const Rules& rules) {
+    std::string out = rules.disassembly();
+    for (const Diagnostic& d : rules.diagnostics()) out += d.rendered;
+    return out;
+  };
+  const std::string house = "import h : \"house.cga\"\n", roof = "import r : \"roof.cga\"\n";
+  const std::string lot = "Lot --> h.House r.Roof\n";
+  Rules before = read(house + roof + lot, nullptr);
+  for (const auto& [text, main] :
+       {std::pair("House --> extrude(2) Leaf.\n", house + roof + lot),
+        {"House --> extrude(2) Leaf.\n", roof + house + lot},
+        {"House --> extrude(2 Leaf.\n", roof + house + lot},
+        {"House --> extrude(2 Leaf.\n", "// A remark.\n" + roof + house + lot},
+        {"House --> extrude(3) Leaf.\n", "// A remark.\n" + roof + house + lot}}) {
+    options.overlay = {{"house.cga", text}};
+    const Rules next = read(main, &before), fresh = read(main, nullptr);
+    EXPECT_EQ(seen(next), seen(fresh)) << text << main;
+    EXPECT_EQ(next.ok(), std::string(text).find(')') != std::string::npos) << text;
+    before = next;
   }
   fs::remove_all(folder);
 }
