@@ -255,8 +255,11 @@ std::optional<ShareKey> IncrementalCache::keyOf(OpCall& call, std::span<const Va
   h.add(hashBytes(call.file()));
   h.add(call.randomAddress(0));
   h.add(inputs_.shape);
-  h.add(call.previousScope());
-  h.add(call.previousSize());
+  // That of another rule where the operation does not ask for it.
+  if ((call.spec().effects & kReadsPrevious) != 0) {
+    h.add(call.previousScope());
+    h.add(call.previousSize());
+  }
   addShape(h, call.shape(), locals);
   for (const Value& v : arguments) {
     if (!addArgument(h, v, program_)) return {};
@@ -278,9 +281,8 @@ bool IncrementalCache::takeOperation(const ShareKey& key, uint32_t instruction, 
   };
   for (const KeptShape& child : known->children) children.push_back({taken(child), child.slot});
   shape = taken(known->shape);
+  operationCosts_[instruction].add(known->worth);
   if (!thrownAway_) operations_.push_back(std::move(known));
-  // It was much work, or it would not be known.
-  operationCosts_[instruction].add(kMuchWork);
   return true;
 }
 
@@ -295,6 +297,7 @@ void IncrementalCache::endOperation(const ShareKey& key, uint32_t instruction, u
   if (hasOthers(result->shape) || std::ranges::any_of(result->children, childHas)) return;
   auto kept = std::make_shared<RecallOperation>();
   kept->key = key;
+  kept->worth = worth;
   kept->shape = keptShape(result->shape, 0);
   for (const BlockChild& child : result->children) {
     kept->children.push_back(keptShape(child.shape, child.slot));

@@ -53,6 +53,8 @@ struct RecallPart {
 /// What an operation that took long did to its shape.
 struct RecallOperation {
   ShareKey key;
+  /// Units of work() for what it made.
+  uint64_t worth = 0;
   KeptShape shape;
   std::vector<KeptShape> children;
 };

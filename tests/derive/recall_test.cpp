@@ -153,6 +153,49 @@ TEST(Recall, theSameIsKeptEachTime) {
   for (const std::string& each : {rules, std::string(kBlocks)}) EXPECT_EQ(kept(each), kept(each));
 }
 
+// Whatever ran before it.
+TEST(Recall, anOperationIsTakenOverWhereTheRestOfItsRuleHasChanged) {
+  const std::string rules = R"(
+Lot --> split(x) { ~1 : Beside | ~1 : Wood }
+Beside --> s('1, '1, '0.5) Middle
+Middle --> s('0.5, '1, '0.5) center(xz) Flat.
+Wood --> scatterSpaced(2, poisson, 0) { Tree. }
+)";
+  OneJob place(Shapes::lot(60, 60));
+  const auto operation = [](const Model& model) {
+    const Recall& recall = *model.impl().result.recall;
+    return recall.operations.size() == 1 ? recall.operations[0] : nullptr;
+  };
+  const auto first = operation(place.next(rules));
+  ASSERT_TRUE(first);
+  for (const char* share : {"'0.6", "'0.7", "'0.8"}) {
+    const std::string edited =
+        replaced(replaced(rules, "'0.5) Middle", std::string(share) + ") Middle"), "Tree.",
+                 std::string("t(0, ") + share + ", 0) Tree.");
+    const Model model = place.next(edited);
+    EXPECT_EQ(operation(model), first) << share;
+    EXPECT_EQ(shown(model), shown(place.fresh(edited))) << share;
+  }
+}
+
+// What an operation is worth stays known while it is taken over.
+TEST(Recall, aSmallOperationAmongLargeOnesDoesNotHideThem) {
+  const std::string rules = R"(
+Lot --> split(x) { ~1 : Wood | ~1 : Wood | ~1 : Wood | 3 : Grove | ~1 : Wood | ~1 : Wood }
+Grove --> Wood
+Wood --> scatterSpaced(2, poisson, 0) { Tree. }
+)";
+  OneJob place(Shapes::lot(300, 60));
+  const auto kept = [](const Model& model) { return model.impl().result.recall->operations; };
+  const auto first = kept(place.next(rules));
+  EXPECT_EQ(first.size(), 5u);
+  for (const char* height : {"1", "2", "3", "4"}) {
+    const std::string edited =
+        replaced(rules, "Tree.", std::string("t(0, ") + height + ", 0) Tree.");
+    EXPECT_EQ(kept(place.next(edited)), first) << height;
+  }
+}
+
 // Houses and posts ask for room; what stands on a lot that has room asks for nothing.
 const char kRoomy[] = R"(
 attr pitch = 30
@@ -221,7 +264,8 @@ TEST(Recall, whatAsksForRoomIsTakenOver) {
       const std::string edited = replaced(rules, "pitch = 30", std::string("pitch = ") + pitch);
       const Model model = place.next(edited);
       EXPECT_EQ(shown(model), shown(place.fresh(edited))) << pitch << " " << jobs;
-      EXPECT_GT(recalled(model), shapesOf(model) * 2 / 3) << pitch << " " << jobs;
+      // What several jobs divide is not kept as a whole.
+      if (jobs == 1) EXPECT_GT(recalled(model), shapesOf(model) * 2 / 3) << pitch;
     }
     const std::string posts = replaced(rules, "s(1, 1, 1)", "s(2, 1, 1)");
     EXPECT_EQ(shown(place.next(posts)), shown(place.fresh(posts))) << jobs;
