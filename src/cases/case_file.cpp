@@ -54,13 +54,16 @@ class Reader {
     }
     closeSection();
     if (file_.cases.empty() && file_.errors.empty()) error("no case in this file");
-    if (!file_.errors.empty()) file_.cases.clear();
+    if (isOther_) file_.cases.clear();
     return std::move(file_);
   }
 
  private:
+  // Of the case that is open, else of the file.
   void error(const std::string& what) {
-    file_.errors.push_back({static_cast<uint32_t>(number_), what});
+    std::vector<CaseFailure>& errors =
+        file_.cases.empty() ? file_.errors : file_.cases.back().errors;
+    errors.push_back({static_cast<uint32_t>(number_), what});
   }
 
   void take(std::string_view line) {
@@ -69,7 +72,7 @@ class Reader {
     } else if (line.empty() || line.front() == ' ') {
       if (open_)
         lines_.push_back(line);
-      else if (!trimmed(line).empty())
+      else if (!trimmed(line).empty() && !unknown_)
         error("text outside a section");
     } else if (line.front() != '#') {
       openSection(line);
@@ -78,10 +81,11 @@ class Reader {
 
   void openCase(std::string_view name) {
     closeSection();
-    for (const Case& c : file_.cases) {
-      if (c.name == name) error("a second case named " + std::string(name));
-    }
-    file_.cases.push_back({std::string(name), number_, {}});
+    unknown_ = false;
+    const bool isSecond = std::any_of(file_.cases.begin(), file_.cases.end(),
+                                      [&](const Case& c) { return c.name == name; });
+    file_.cases.push_back({std::string(name), number_, {}, {}});
+    if (isSecond) error("a second case named " + std::string(name));
   }
 
   void openSection(std::string_view line) {
@@ -98,11 +102,13 @@ class Reader {
     const std::string_view name = head.substr(0, blank);
     if (colon == std::string_view::npos ||
         std::find(kSections.begin(), kSections.end(), name) == kSections.end()) {
+      unknown_ = true;
       const std::string meant = didYouMean(name, {kSections.begin(), kSections.end()});
       error("expected a section of a case, not '" + std::string(line) + "'; " +
             (meant.empty() ? "there are " + sectionsText() : meant));
       return;
     }
+    unknown_ = false;
     Section section;
     section.name = name;
     if (blank != std::string_view::npos) section.argument = trimmed(head.substr(blank));
@@ -130,6 +136,8 @@ class Reader {
   CaseFile file_;
   size_t number_ = 0;
   bool open_ = false;
+  // Within a section that there is not, whose text is not told as well.
+  bool unknown_ = false;
   // No file of cases.
   bool isOther_ = false;
   std::string_view first_;

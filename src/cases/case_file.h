@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: The Gable authors
 //
 // Reads .test files: cases with sections, as docs/guide/rule-tests.md describes them. What is wrong
-// in a file is told with its line; a file with an error has no cases, so that nothing passes by
-// mistake.
+// is told with its line: a case with an error fails, so that nothing passes by mistake, and the
+// others run. A file that is none of cases has an error of its own.
 #pragma once
 
 #include <cstddef>
@@ -30,6 +30,8 @@ struct Case {
   std::string name;
   size_t line = 0;
   std::vector<Section> sections;
+  /// What is wrong with its text.
+  std::vector<CaseFailure> errors;
 
   /// Null where the case has no such section.
   const Section* find(std::string_view section) const;

@@ -54,13 +54,29 @@ TEST(CaseFile, splitsStatements) {
   EXPECT_EQ(list[2].block, "  A\n    face\n");
 }
 
-TEST(CaseFile, rejectsWhatItDoesNotKnow) {
-  for (const char* text : {"", "rule:\n  A --> B\n", "== a\nrulez:\n  A --> B\n", "== a\n  text\n",
-                           "== a\nrule: A\n== a\nrule: B\n", "== a\nrule: A\nrule: B\n"}) {
+TEST(CaseFile, isNoneOfCases) {
+  for (const char* text : {"", "rule:\n  A --> B\n", "  text\n"}) {
     const CaseFile file = parseCases(text);
     EXPECT_FALSE(file.errors.empty()) << text;
     EXPECT_TRUE(file.cases.empty()) << text;
   }
+}
+
+TEST(CaseFile, aMistakeIsThatOfItsCase) {
+  for (const char* wrong : {"rulez:\n  A --> B\n", "  text\n", "rule: A\nrule: B\n"}) {
+    const CaseFile file =
+        parseCases("== a\nrule: A --> B\n== b\n" + std::string(wrong) + "== c\nrule: A --> B\n");
+    EXPECT_TRUE(file.errors.empty()) << wrong;
+    ASSERT_EQ(file.cases.size(), 3u) << wrong;
+    EXPECT_TRUE(file.cases[0].errors.empty()) << wrong;
+    ASSERT_EQ(file.cases[1].errors.size(), 1u) << wrong;
+    EXPECT_GE(file.cases[1].errors[0].line, 4u) << wrong;
+    EXPECT_TRUE(file.cases[2].errors.empty()) << wrong;
+  }
+  const CaseFile twice = parseCases("== a\nrule: A\n== a\nrule: B\n");
+  ASSERT_EQ(twice.cases.size(), 2u);
+  EXPECT_TRUE(twice.cases[0].errors.empty());
+  EXPECT_EQ(twice.cases[1].errors.size(), 1u);
 }
 
 TEST(CaseFile, linesThatAreIndentedFurtherAreNotLost) {

@@ -31,8 +31,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kShapeForms =
-    "the shape is not understood; expected: lot 20x10, polygon X,Y X,Y .., face X,Y,Z .. or load "
-    "FILE";
+    "the shape is not understood; expected: lot 20x10, polygon X,Y X,Y .., face 12x9, "
+    "face X,Y,Z .. or load FILE";
 
 /// The rule that `values` sections are evaluated in.
 constexpr const char* kValuesRule = "CaseValues";
@@ -142,13 +142,17 @@ void CaseRun::fail(size_t line, const std::string& message) {
 
 void CaseRun::failAt(const char* section, const std::string& message) {
   const Section* s = case_.find(section);
-  fail(s ? s->line : 0, message);
+  fail(!s ? 0 : trimmed(s->text).empty() ? s->line : s->textLine, message);
 }
 
 bool CaseRun::stopped() const { return settings_.cancel && settings_.cancel->load(); }
 
 CaseResult CaseRun::run() {
   const double begin = now();
+  if (!case_.errors.empty()) {
+    result_.failures = case_.errors;
+    return std::move(result_);
+  }
   try {
     // Derivations and files have limits of their own; all else hears the wish to stop.
     Allowance allowance({{}, {}, settings_.cancel});
@@ -181,14 +185,18 @@ Rules CaseRun::loadRules() {
 }
 
 bool CaseRun::readAttributes(DeriveSettings& derive) {
+  const Section* set = case_.find("set");
+  size_t number = set ? set->textLine : 0;
   for (std::string_view line : linesOf(case_.textOf("set"))) {
+    const size_t here = number++;
     const size_t at = line.find('=');
     if (trimmed(line).empty()) continue;
     if (at == std::string_view::npos) {
-      failAt("set", "expected name = value, not '" + std::string(trimmed(line)) + "'");
+      fail(here, "expected name = value, not '" + std::string(trimmed(line)) + "'");
       return false;
     }
     derive.attributes.emplace_back(trimmed(line.substr(0, at)), trimmed(line.substr(at + 1)));
+    setLines_.emplace_back("'" + derive.attributes.back().first + "'", here);
   }
   return true;
 }
@@ -330,13 +338,32 @@ void CaseRun::checkValues(const std::vector<std::string>& prints) {
   }
 }
 
+// Where a message without a place has its cause: what the case sets, or the rule that it starts
+// with.
+size_t CaseRun::lineOf(const CaseFailure& f) const {
+  const auto has = [&](std::string_view text) { return f.message.find(text) != std::string::npos; };
+  if (f.line > 0) return f.line;
+  const Section* start = case_.find("start");
+  if (start && has("[unknown-start-rule]")) return start->textLine;
+  if (!has("[unknown-attribute]") && !has("[attribute-value]") && !has("[not-settable]")) return 0;
+  // The hint may name another.
+  size_t line = 0, least = std::string::npos;
+  for (const auto& [name, at] : setLines_) {
+    const size_t place = f.message.find(name);
+    if (place >= least) continue;
+    least = place;
+    line = at;
+  }
+  return line;
+}
+
 void CaseRun::judge(const Outcome& outcome) {
   const Section* expect = case_.find("expect");
   const std::vector<Statement> expected = expect ? statements(*expect) : std::vector<Statement>{};
   if (settings_.update) noteUpdates(expected, outcome.dump);
   for (const CaseFailure& f : failures(expected, outcome)) {
     if (settings_.update && f.message.starts_with("dump:")) continue;
-    fail(f.line, f.message);
+    fail(lineOf(f), f.message);
   }
 }
 

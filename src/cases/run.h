@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cases/case_file.h"
@@ -50,6 +51,7 @@ class CaseRun {
   bool readAttributes(DeriveSettings& derive);
   void checkValues(const std::vector<std::string>& prints);
   void judge(const Outcome& outcome);
+  size_t lineOf(const CaseFailure& failure) const;
   void noteUpdates(const std::vector<Statement>& expected, const std::string& dump);
 
   const Case& case_;
@@ -58,6 +60,8 @@ class CaseRun {
   GoldenFiles golden_;
   CaseResult result_;
   std::vector<DumpUpdate> updates_;
+  /// The lines of the section `set`, by the attribute's name in quotes.
+  std::vector<std::pair<std::string, size_t>> setLines_;
 };
 
 }  // namespace gable::cases

@@ -71,10 +71,10 @@ std::optional<Shapes> startShape(const Case& c, const std::string& folder,
   const std::string rest(blank == std::string_view::npos ? "" : trimmed(text.substr(blank)));
   double width = 0, depth = 0;
   int used = 0;
-  if (kind == "lot" && std::sscanf(rest.c_str(), "%lfx%lf%n", &width, &depth, &used) == 2 &&
-      static_cast<size_t>(used) == rest.size()) {
-    return Shapes::lot(width, depth);
-  }
+  const bool isExtent = std::sscanf(rest.c_str(), "%lfx%lf%n", &width, &depth, &used) == 2 &&
+                        static_cast<size_t>(used) == rest.size();
+  if (kind == "lot" && isExtent) return Shapes::lot(width, depth);
+  if (kind == "face" && isExtent) return Shapes::face(width, depth);
   if (kind == "load" && !rest.empty()) {
     return Shapes::load((std::filesystem::path(folder) / rest).string(), limits);
   }

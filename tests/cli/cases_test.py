@@ -74,7 +74,7 @@ class Cases(Case):
         self.run_gable("test", status=WRONG, says="one: leaves A 1: found 0")
 
     def testMistakesOfAFileFailIt(self):
-        for text, says in (("== a\nrulez: x\n", ":2: expected a section"), ("== a\nseeds: 3\n", "did you mean 'seed'?"),
+        for text, says in (("== a\nrulez: x\n", ":2: a: expected a section"), ("== a\nseeds: 3\n", "did you mean 'seed'?"),
                            ("", "no case"),
                            ("Lot --> A.\n", "begins with '== name'"),
                            ("== a\nrule: Lot --> A.\n", "'expect'"),
@@ -94,6 +94,35 @@ class Cases(Case):
             self.cases(text)
             self.run_gable("test", status=WRONG, says=says)
         self.assertFalse((self.folder / "b.cga").exists())
+
+    def testAWrongSectionIsOfItsCaseAlone(self):
+        self.cases(case("good", "leaves 1", rules="rule: Lot --> A.") + "\n"
+                   + case("bad", "leaves 1", rules="rule: Lot --> A.", more="seeds:\n  3\n") + "\n"
+                   + case("wrong", "leaves 2", rules="rule: Lot --> A."))
+        told = self.run_gable("test", status=WRONG, says="1 passed, 2 failed")
+        self.assertIn("bad: expected a section of a case, not 'seeds:'; did you mean 'seed'?", told)
+        self.assertEqual(told.count("bad:"), 1, told)
+        self.assertIn("wrong: leaves 2: found 1", told)
+
+    def testWhatACaseSetsIsToldAtItsLine(self):
+        rules = "rule:\n  attr height = 3\n  Lot --> extrude(height) A."
+        for more, line, says in (("set:\n  height = 4\n  nothing\n", 3, "expected name = value, not 'nothing'"),
+                                 ("set:\n  height = 4\n\n  hight = 5\n", 4, "did you mean 'height'?"),
+                                 ("set:\n  height = tall\n", 2, "height")):
+            text = case("a", "leaves 1", rules=rules, more=more)
+            self.cases(text)
+            first = text.splitlines().index(more.splitlines()[0])
+            told = self.run_gable("test", status=WRONG, says=says)
+            self.assertIn(f":{first + line}: a: ", told, more)
+        for start, line in (("Lott", 6), ("\n  Lott", 7)):
+            self.cases(case("a", "leaves 1", rules=rules, start=start))
+            self.assertIn(f":{line}: a: ", self.run_gable("test", status=WRONG, says="did you mean 'Lot'?"))
+
+    def testAnUprightFaceIsAShape(self):
+        self.cases(case("a", "leaves Pane 8", "size Pane 3 3 0", "bounds 0 0 0  12 6 0", shape="face 12x6",
+                        start="Wall",
+                        rules="rule: Wall --> split(y) { 3 : split(x) { 3 : Pane. }* }*"))
+        self.run_gable("test", says="1 passed, 0 failed")
 
     def testLeavesAreApartAndWithinTheLot(self):
         concave = "polygon 0,0 20,0 20,10 12,10 12,5 8,5 8,10 0,10"
