@@ -203,6 +203,9 @@ class Analysis {
   /// The signatures that the arguments fit by count and names; reports when there are none.
   std::vector<uint16_t> signaturesByShape(const CallTarget& target,
                                           std::span<const NodeId> arguments);
+  size_t misfits(const Signature& signature, std::span<const NodeId> args) const;
+  bool reportTooMany(const CallTarget& target, std::span<const NodeId> args,
+                     const std::vector<uint16_t>& left);
   void keepNearest(const CallTarget& target, std::span<const NodeId> args,
                    std::vector<uint16_t>& left) const;
   bool hasNames(std::span<const NodeId> arguments) const;
@@ -294,6 +297,8 @@ class Analysis {
   void visitLocal(NodeId node, const OpSpec& op);
   void visitDo(NodeId node, const OpSpec& op);
   void visitImportCall(NodeId node, bool successor);
+  std::string firstRuleOf(ModuleId module) const;
+  bool reportImportValues(NodeId node, std::span<const NodeId> args);
   void checkGivenTypes(ModuleId target, NodeId list);
   void visitSuccessorChoice(NodeId node);
   void visitBlocks(NodeId node, const OpSpec& op);
@@ -318,6 +323,7 @@ class Analysis {
   void reportUnused(NodeId sequence);
   bool runsInPlace();
   std::string tintedCall(NodeId material, NodeId color) const;
+  std::string materialThatBegins(RuleId rule);
   void reportLostColors(NodeId sequence);
 
   // --- parts.cpp: named parts of blocks, and the figures that they begin with ---
@@ -479,6 +485,8 @@ class Analysis {
   bool mute_ = false;
   // A selector that stands without its colon, and so reads as a rule.
   NodeId headless_ = kNoNode;
+  /// Whether something stands behind the choice whose branch is visited.
+  bool followed_ = false;
   /// Whether the last report was taken in.
   bool reported_ = false;
   /// What near() found for the report to come.

@@ -391,10 +391,9 @@ std::span<const NodeId> Analysis::orderArguments(NodeId node, const Signature& s
   return order;
 }
 
-// Where what is written out fits no form, the forms that the least of it fits not: what is told
-// is then the mistake, and not that of a form which nobody meant.
-void Analysis::keepNearest(const CallTarget& target, std::span<const NodeId> args,
-                           std::vector<uint16_t>& left) const {
+// How many of the arguments, as they are written out, do not fit their parameters of a form. What
+// it has no parameter for does not count.
+size_t Analysis::misfits(const Signature& signature, std::span<const NodeId> args) const {
   const auto isWrong = [&](const ParamSpec& p, NodeId node) {
     switch (tree().kind(node)) {
       case NodeKind::Number: return !fits(ValueType::Float, p.type);
@@ -405,16 +404,52 @@ void Analysis::keepNearest(const CallTarget& target, std::span<const NodeId> arg
       default: return false;
     }
   };
-  std::vector<size_t> wrong;
-  for (const uint16_t s : left) {
-    const Signature& signature = target.signatures[s];
-    size_t& count = wrong.emplace_back();
-    for (size_t i = 0; i < args.size(); ++i) {
-      const bool named = tree().kind(args[i]) == NodeKind::NamedArg;
-      const ParamSpec& p = *signature.paramAt(parameterOf(signature, args, i));
-      count += isWrong(p, named ? tree().child(args[i], 0) : args[i]) ? 1 : 0;
-    }
+  size_t count = 0;
+  for (size_t i = 0; i < args.size(); ++i) {
+    const bool named = tree().kind(args[i]) == NodeKind::NamedArg;
+    const size_t p = parameterOf(signature, args, i);
+    if (p == kNoParameter) continue;
+    count += isWrong(*signature.paramAt(p), named ? tree().child(args[i], 0) : args[i]) ? 1 : 0;
   }
+  return count;
+}
+
+// Where no form of as many parameters fits, but one of fewer does with the first of the arguments,
+// those behind it are too many: roofGable(30, 1, 1, true, 0, 7).
+bool Analysis::reportTooMany(const CallTarget& target, std::span<const NodeId> args,
+                             const std::vector<uint16_t>& left) {
+  const auto fitsAll = [&](uint16_t s) { return misfits(target.signatures[s], args) == 0; };
+  if (hasNames(args) || std::any_of(left.begin(), left.end(), fitsAll)) return false;
+  // A word that one of the forms begins with tells which is meant.
+  const bool hasWordOfForm = std::any_of(left.begin(), left.end(), [&](uint16_t s) {
+    const ParamSpec* const first = target.signatures[s].paramAt(0);
+    return first && first->type == ParamType::Selector && first->words &&
+           tree().kind(args[0]) == NodeKind::Name && hasWord(first->words, text(args[0]));
+  });
+  if (hasWordOfForm) return false;
+  const Signature* meant = nullptr;
+  for (const Signature& s : target.signatures) {
+    if (s.params.empty() || s.params.size() >= args.size() || misfits(s, args) > 0) continue;
+    if (!meant || s.params.size() > meant->params.size()) meant = &s;
+  }
+  if (!meant) return false;
+  const size_t most = meant->params.size(), more = args.size() - most;
+  visitMisfits(target, args);
+  reportMisfit(target, "wrong-argument-count", args[most],
+               quote(target.name) + " takes at most " + std::to_string(most) +
+                   (most == 1 ? " argument" : " arguments") + " where they begin like this; " +
+                   (more == 1 ? "this one is" : "the last " + std::to_string(more) + " are") +
+                   " too many",
+               "write " + signatureText(target.name, *meant));
+  return true;
+}
+
+// Where what is written out fits no form, the forms that the least of it fits not: what is told
+// is then the mistake, and not that of a form which nobody meant.
+void Analysis::keepNearest(const CallTarget& target, std::span<const NodeId> args,
+                           std::vector<uint16_t>& left) const {
+  std::vector<size_t> wrong;
+  for (const uint16_t s : left) wrong.push_back(misfits(target.signatures[s], args));
   const size_t least = *std::min_element(wrong.begin(), wrong.end());
   if (least == 0) return;
   size_t kept = 0;
@@ -440,6 +475,11 @@ Analysis::Chosen Analysis::checkBuiltinCall(const CallTarget& target,
     }
     Chosen none;
     none.leaf = target.mayBeLeaf && !anyNamed;
+    return none;
+  }
+  if (reportTooMany(target, args, left)) {
+    Chosen none;
+    none.leaf = target.mayBeLeaf;
     return none;
   }
   if (left.size() > 1) keepNearest(target, args, left);

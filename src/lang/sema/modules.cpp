@@ -581,7 +581,9 @@ void Analysis::checkOverrides(ModuleId module, NodeId overrides) {
   const Tree& t = program_.tree(owner);
   std::unordered_set<std::string_view> seen;
   for (const NodeId item : t.children(overrides)) {
-    if (t.kind(item) == NodeKind::Rule) continue;
+    const bool isValue = t.kind(item) == NodeKind::NamedArg;
+    // What else stands in the brackets of a call has been told.
+    if (!isValue && (t.kind(item) != NodeKind::Name || program_.modules[module].dynamic)) continue;
     const std::string_view name = t.text(item);
     if (!isOpenAttribute(module, name)) {
       reportNoAttribute(module, nameSpan(t, item), name);

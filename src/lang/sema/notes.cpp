@@ -98,7 +98,7 @@ void readEnum(NoteReader& r, Annotations& out) {
       note.restricted = *r.truth(value);
     } else if (key == "valuesAttr" && r.word(value)) {
       note.valuesAttribute = *r.word(value);
-    } else {
+    } else if (key == "restricted" || key == "valuesAttr") {
       r.warn(a, "'" + std::string(key) + "' is not understood in '@Enum'",
              "it takes values, 'valuesAttr=name' and 'restricted=true'");
     }
@@ -107,16 +107,20 @@ void readEnum(NoteReader& r, Annotations& out) {
   if (!r.warned()) out.choices = note;
 }
 
+constexpr std::string_view kRangeNames = "min max stepsize restricted step_size step";
+
+bool isNameOf(std::string_view names, std::string_view name) {
+  return (" " + std::string(names) + " ").find(" " + std::string(name) + " ") != std::string::npos;
+}
+
 // The old form with a name for each value, as a choice is shown: (Low=0, High=1).
 bool hasLabels(const NoteReader& r) {
-  constexpr std::string_view kKeys[] = {"min",       "max",  "stepsize",
-                                        "step_size", "step", "restricted"};
   bool labels = false;
   for (const NodeId a : r.arguments()) {
     if (r.tree().kind(a) != NodeKind::NamedArg) continue;
     const std::string_view key = r.tree().text(a);
     // Beside a bound every other name is a slip of one.
-    if (std::find(std::begin(kKeys), std::end(kKeys), key) != std::end(kKeys)) return false;
+    if (isNameOf(kRangeNames, key)) return false;
     labels = true;
   }
   return labels;
@@ -159,6 +163,7 @@ void readRange(NoteReader& r, Annotations& out) {
     const NodeId value = isNamed ? r.tree().child(a, 0) : a;
     const std::string_view key = isNamed ? r.tree().text(a) : std::string_view();
     const auto n = r.number(value);
+    if (isNamed && !isNameOf(kRangeNames, key)) continue;
     if (key == "restricted" && r.truth(value)) {
       note.restricted = *r.truth(value);
     } else if (n && (key == "min" || key == "max" || key == "stepsize" || key == "step_size" ||
@@ -190,6 +195,7 @@ void readRange(NoteReader& r, Annotations& out) {
 void readGroup(NoteReader& r, Annotations& out) {
   out.group = {};
   for (const NodeId a : r.arguments()) {
+    if (r.tree().kind(a) == NodeKind::NamedArg) continue;
     if (const auto s = r.word(a)) {
       out.group.path.push_back(*s);
     } else if (const auto n = r.number(a)) {
@@ -221,6 +227,7 @@ void readFile(NoteReader& r, Annotations& out) {
 
 void readOut(NoteReader& r, Annotations& out) {
   for (const NodeId a : r.arguments()) {
+    if (r.tree().kind(a) != NodeKind::NamedArg) continue;
     const auto value = r.word(r.tree().child(a, 0));
     if (r.tree().text(a) == "granularity" && value)
       out.separateShapes = *value == "separatedShapes";
@@ -298,6 +305,8 @@ void readHandle(NoteReader& r, Annotations& out) {
 struct NoteKind {
   std::string_view name;
   void (*read)(NoteReader&, Annotations&);
+  /// What arguments may be called, with blanks between; "*" where the reader looks at the names.
+  std::string_view names = "";
 };
 
 constexpr NoteKind kNotes[] = {
@@ -307,10 +316,10 @@ constexpr NoteKind kNotes[] = {
     {"Directory", [](NoteReader&, Annotations& o) { o.file = FileNote::Directory; }},
     {"DisplayName", [](NoteReader& r, Annotations& o) { o.displayName = r.oneString(); }},
     {"Distance", [](NoteReader&, Annotations& o) { o.unit = UnitNote::Distance; }},
-    {"Enum", readEnum},
+    {"Enum", readEnum, "restricted valuesAttr"},
     {"File", readFile},
     {"Group", readGroup},
-    {"Handle", readHandle},
+    {"Handle", readHandle, "*"},
     {"Hidden", readHidden},
     {"InLine", [](NoteReader&, Annotations& o) { o.input = InputNote::Line; }},
     {"InMesh", [](NoteReader&, Annotations& o) { o.input = InputNote::Mesh; }},
@@ -320,13 +329,39 @@ constexpr NoteKind kNotes[] = {
     {"Label", [](NoteReader& r, Annotations& o) { o.label = r.oneString(); }},
     {"MaterialFile", [](NoteReader&, Annotations& o) { o.file = FileNote::MaterialFile; }},
     {"Order", readOrder},
-    {"Out", readOut},
+    {"Out", readOut, "granularity"},
     {"Percent", [](NoteReader&, Annotations& o) { o.unit = UnitNote::Percent; }},
     {"PreferredSize", readPreferredSize},
-    {"Range", readRange},
+    {"Range", readRange, kRangeNames},
     {"RuleFileDescription", [](NoteReader&, Annotations&) {}},
     {"StartRule", [](NoteReader&, Annotations& o) { o.startRule = true; }},
 };
+
+// Arguments with a name that the annotation does not have say nothing.
+void warnOfNames(NoteReader& r, const NoteKind& kind) {
+  // The labels of the old form are no names of arguments.
+  if (kind.names == "*" || (kind.name == "Range" && hasLabels(r))) return;
+  std::vector<std::string_view> known;
+  for (std::string_view rest = kind.names; !rest.empty();) {
+    const size_t end = std::min(rest.find(' '), rest.size());
+    known.push_back(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  for (const NodeId a : r.arguments()) {
+    const std::string_view name = r.tree().text(a);
+    if (r.tree().kind(a) != NodeKind::NamedArg || isNameOf(kind.names, name)) continue;
+    const std::string nearest = didYouMean(name, known);
+    std::string list;
+    // Other spellings of a name stand behind the last.
+    for (size_t i = 0; i < known.size() && i < 4; ++i) {
+      list += (i ? ", " : "") + std::string(known[i]);
+    }
+    r.warn(a, "'@" + std::string(kind.name) + "' has no argument '" + std::string(name) + "'",
+           !nearest.empty() ? nearest
+           : list.empty()   ? "its arguments have no names"
+                            : "the names of its arguments are: " + list);
+  }
+}
 
 }  // namespace
 
@@ -342,6 +377,7 @@ Annotations readAnnotations(const Tree& tree, NodeId list, GroupNote& group,
     if (tree.has(id, kFlagBroken)) continue;
     if (known != std::end(kNotes)) {
       NoteReader reader(tree, id, diagnostics);
+      warnOfNames(reader, *known);
       known->read(reader, out);
     } else if (diagnostics) {
       std::vector<std::string_view> names;

@@ -50,7 +50,15 @@ std::string_view shortNameOf(std::string_view name) {
 
 void Analysis::visitSequence(NodeId node) {
   if (node == kNoNode) return;
-  for (const NodeId s : tree().children(node)) visitSuccessor(s);
+  const bool followed = std::exchange(followed_, false);
+  const std::span<const NodeId> all = tree().children(node);
+  for (size_t i = 0; i < all.size(); ++i) {
+    // The end of a branch is followed by what follows the choice.
+    const bool isChoice = tree().kind(all[i]) == NodeKind::Choice;
+    followed_ = isChoice && (followed || i + 1 < all.size());
+    visitSuccessor(all[i]);
+  }
+  followed_ = followed;
   reportLostColors(node);
 }
 
@@ -73,7 +81,9 @@ void Analysis::visitSuccessorChoice(NodeId node) {
     if (condition != kNoNode) {
       expectType(condition, visit(condition, wanted), wanted, isCase ? "a condition" : "a weight");
     }
+    const bool followed = followed_;
     visitSequence(tree().child(branch, 1));
+    followed_ = followed;
   }
   if (!isCase && node != headless_) checkWeights(node);
 }
@@ -200,6 +210,12 @@ void Analysis::reportUndefinedRule(NodeId node, const RuleSet& found) {
     hint = "did you mean " + quote(std::string(before) + meant_.nearest) + "?";
   }
   if (hint.empty()) hint = hintOfImport(place.first, place.second);
+  const auto own = scopes_[body_.module].imports.find(name);
+  if (hint.empty() && own != scopes_[body_.module].imports.end()) {
+    const std::string rule = firstRuleOf(own->second);
+    hint = quote(name) + " is an import; its rules are written as " +
+           quote(std::string(name) + "." + rule);
+  }
   if (hint.empty()) hint = hintOfOperation(name);
   if (hint.empty() && !meant.empty() && !isShort) {
     meant_ = {name, std::string(meant)};
@@ -273,6 +289,62 @@ bool Analysis::applyRule(NodeId node, const std::vector<RuleId>& rules,
   return true;
 }
 
+namespace {
+
+std::string listText(const Sources& sources, const Tree& t, std::span<const NodeId> args,
+                     bool named) {
+  std::string out;
+  for (const NodeId a : args) {
+    if ((t.kind(a) == NodeKind::NamedArg) != named) continue;
+    const NodeId value = named ? t.child(a, 0) : a;
+    const Span span = t.span(value);
+    out += (out.empty() ? "" : ", ") + (named ? std::string(t.text(a)) + " = " : std::string()) +
+           std::string(sources.text(span.file).substr(span.begin, span.end - span.begin));
+  }
+  return out;
+}
+
+}  // namespace
+
+// A rule of an import, for examples in hints.
+std::string Analysis::firstRuleOf(ModuleId module) const {
+  for (RuleId r = program_.modules[module].firstRule;
+       r < program_.modules[module].firstRule + program_.modules[module].ruleCount; ++r) {
+    const std::string& name = program_.rules[r].name;
+    if (name.find('.') == std::string::npos) return name;
+  }
+  return "Rule";
+}
+
+// Values for the attributes of an import that stand behind the rule, or that no rule follows:
+// ground.Opening(height = 2.6), ground(height = 2.6). Whether that is so.
+bool Analysis::reportImportValues(NodeId node, std::span<const NodeId> args) {
+  const std::string_view name = text(node);
+  const std::string_view import = name.substr(0, name.find('.'));
+  const auto target = scopes_[body_.module].imports.find(import);
+  if (target == scopes_[body_.module].imports.end()) return false;
+  const std::string alias(import);
+  const bool hasRule = import.size() < name.size();
+  const std::string values = listText(sources_, tree(), args, true);
+  const std::string rest = listText(sources_, tree(), args, false);
+  if (hasRule && values.empty()) return false;
+  if (!hasRule && tree().child(node, 0) == kNoNode) return false;
+  visitLoosely(args);
+  if (hasRule) {
+    errorAt(
+        "bad-dynamic-import", node,
+        "values for the attributes of " + quote(alias) + " stand behind its name, before the rule",
+        "write " + alias + "(" + values + ")." + std::string(name.substr(import.size() + 1)) +
+            (rest.empty() ? "" : "(" + rest + ")"));
+    return true;
+  }
+  errorAt("bad-dynamic-import", node,
+          quote(alias) + " is an import, and no rule of it stands behind these brackets",
+          "write " + alias + "(" + (values.empty() ? "attribute = value" : values) + ")." +
+              firstRuleOf(target->second));
+  return true;
+}
+
 void Analysis::visitApply(NodeId node) {
   const Tree& t = tree();
   const std::string_view name = t.text(node);
@@ -294,6 +366,7 @@ void Analysis::visitApply(NodeId node) {
     op = nullptr;
   }
   if (op) return visitOperation(node, *op);
+  if (reportImportValues(node, args)) return makeLeaf(node, true);
 
   std::vector<ValueType> types;
   checkNamedArguments(args);

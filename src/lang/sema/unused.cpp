@@ -74,14 +74,41 @@ std::string Analysis::tintedCall(NodeId material, NodeId color) const {
          (tint.size() == 1 ? written(tint[0]) : "\"#rrggbb\"") + ")";
 }
 
-// color(x) material("brick"): a material of the library without a tint has a colour of its own.
+// The name of the material that a rule begins with, as it is written; empty where it begins with
+// something else, or gives the material a tint.
+std::string Analysis::materialThatBegins(RuleId rule) {
+  const RuleInfo& r = program_.rules[rule];
+  const Tree& t = program_.tree(r.module);
+  const NodeId body = bodyOf(t, r.node);
+  if (body == kNoNode || t.children(body).empty()) return {};
+  const NodeId first = t.child(body, 0);
+  if (t.kind(first) != NodeKind::Apply || t.text(first) != "material") return {};
+  const std::span<const NodeId> args = t.children(t.child(first, 0));
+  if (args.size() != 1 || !rulesNamed(r.module, "material").rules.empty()) return {};
+  const Span span = t.span(args[0]);
+  return std::string(sources_.text(span.file).substr(span.begin, span.end - span.begin));
+}
+
+// color(x) material("brick"): a material of the library without a tint has a colour of its own. So
+// it is where the material stands at the beginning of the one rule that the colour can be for.
 void Analysis::reportLostColors(NodeId sequence) {
   NodeId color = kNoNode;
-  for (const NodeId s : tree().children(sequence)) {
+  const std::span<const NodeId> all = tree().children(sequence);
+  for (const NodeId s : all) {
     const NodeKind kind = tree().kind(s);
     const bool works = kind == NodeKind::Apply && module().at(s).kind == RefKind::Operation &&
                        module().at(s).spec.operation->block == BlockKind::None;
     if (!works) {
+      const bool calls = module().at(s).kind == RefKind::Rule && s == all.back() && !followed_;
+      const std::string material =
+          calls && color != kNoNode ? materialThatBegins(module().at(s).index) : std::string();
+      if (!material.empty()) {
+        warning("lost-color", nameSpan(tree(), color),
+                "the rule " + quote(text(s)) +
+                    " begins with 'material', which has a colour of its own and takes the place "
+                    "of this one",
+                "to keep this one, write there: material(" + material + ", material.color.rgb)");
+      }
       color = kNoNode;
       continue;
     }
