@@ -610,18 +610,21 @@ Error GeoJsonReader::empty() const {
   std::vector<std::string_view> names;
   for (const auto& [name, count] : counts) names.push_back(name);
   const std::string begin = byValue ? filter_.key + '=' : std::string();
+  const auto most =
+      std::max_element(counts.begin(), counts.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
   const std::string nearest = nearestButForAccents(byValue ? filter_.value : filter_.key, names);
   std::string hint = "choose others with --only, such as --only landuse or --only natural=water";
   if (!nearest.empty()) {
     hint = "did you mean --only " + begin + nearest + "?";
   } else if (!names.empty()) {
     hint = byValue ? "the values of '" + filter_.key + "' are " : "its properties are ";
-    hint += commonest(counts) + "; choose with --only";
+    hint += commonest(counts) + "; write --only " + begin + most->first;
   }
-  const std::string wanted = filter_.key + (filter_.value.empty() ? "" : '=' + filter_.value);
   return {"shapes-empty",
-          "of the " + std::to_string(seen_) + " features of '" + path_ + "' none with '" + wanted +
-              "' is a polygon or a line",
+          "none of the " + std::to_string(seen_) + " features of '" + path_ + "' has " +
+              (byValue ? "the value '" + filter_.value + "' for '" + filter_.key + "'"
+                       : "the property '" + filter_.key + "'"),
           hint};
 }
 

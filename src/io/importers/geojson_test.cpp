@@ -247,9 +247,10 @@ TEST(GeoJson, aFilterThatNothingPassesNamesWhatThereIs) {
   };
   EXPECT_EQ(hint("buildng", ""), "did you mean --only building?");
   EXPECT_EQ(hint("building", "huose"), "did you mean --only building=house?");
-  EXPECT_EQ(hint("surface", "x"), "its properties are building (3), roof (1); choose with --only");
+  EXPECT_EQ(hint("surface", "x"),
+            "its properties are building (3), roof (1); write --only building");
   EXPECT_EQ(hint("building", "castle"),
-            "the values of 'building' are house (2), barn (1); choose with --only");
+            "the values of 'building' are house (2), barn (1); write --only building=house");
 }
 
 TEST(GeoJson, aFilterThatOnlyPointsPassSaysSo) {
