@@ -75,9 +75,12 @@ install(CODE "if(NOT EXISTS ${PROJECT_SOURCE_DIR}/build/studio/index.html)
   endif()" COMPONENT program)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/studio DESTINATION share/gable COMPONENT program OPTIONAL)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION share/gable COMPONENT program)
-# The add-on for Blender, which is installed from a zip.
+# The guide and the reference beside them, with links that hold there; and the add-on for Blender,
+# which is installed from a zip.
 find_package(Python3 QUIET COMPONENTS Interpreter)
 if(Python3_Interpreter_FOUND)
+  install(CODE "execute_process(COMMAND \"${Python3_EXECUTABLE}\" -B \"${PROJECT_SOURCE_DIR}/tools/install_docs.py\"
+      \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/share/gable\" COMMAND_ERROR_IS_FATAL ANY)" COMPONENT program)
   install(CODE "execute_process(COMMAND \"${Python3_EXECUTABLE}\" -B \"${PROJECT_SOURCE_DIR}/tools/pack_blender.py\"
       \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/share/gable/gable_blender.zip\" OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)" COMPONENT program)
 endif()

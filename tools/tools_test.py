@@ -4,6 +4,8 @@
 """The tools do what they say."""
 import json
 import os
+import re
+import shutil
 import struct
 import subprocess
 import tempfile
@@ -15,6 +17,7 @@ import coverage
 import figures
 import gen_docs
 import glb_bytes
+import install_docs
 import new_op
 import noise
 import rule_library
@@ -195,6 +198,26 @@ class RunTestsTest(FolderCase):
         self.assertEqual(run_tests.summarise([], 0, []), 1)
         self.assertEqual(run_tests.summarise([("a", "passed", 0.1, "")], 0, []), 0)
         self.assertEqual(run_tests.summarise([("a", "passed", 0.1, "")], 8, ["stopped"]), 1)
+
+
+class InstallDocsTest(FolderCase):
+    def testLinksOfTheInstallationLeadSomewhere(self):
+        shutil.copytree(ROOT / "examples", self.root / "examples")
+        install_docs.write(self.root)
+        links = 0
+        for page in self.root.rglob("*.md"):
+            for found in install_docs.PARTS.finditer(page.read_text(encoding="utf-8")):
+                target = (found[3] or "").split("#")[0]
+                if target and not re.match(r"\w+:", target):
+                    links += 1
+                    self.assertTrue((page.parent / target).exists(), f"{page}: {target}")
+        self.assertGreater(links, 500)
+        extrude = (self.root / "docs/reference/operations/split.md").read_text(encoding="utf-8")
+        self.assertIn("](split.png)", extrude)
+        readme = (self.root / "README.md").read_text(encoding="utf-8")
+        self.assertIn("](docs/guide/first-rules.md)", readme)
+        self.assertNotIn("](docs/dev/architecture.md)", readme)
+        self.assertIn("](materials/house.cga)", (self.root / "docs/guide/materials.md").read_text(encoding="utf-8"))
 
 
 class RuleLibraryTest(FolderCase):

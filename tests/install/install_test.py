@@ -91,6 +91,7 @@ class Installed(unittest.TestCase):
     def test_everything_is_in_place(self):
         self.assertEqual(sorted(self.programs), ["c", "cpp"])
         for name in ("bin/gable", "include/gable/gable.h", "include/gable/c.h", "share/gable/examples/README.md",
+                     "share/gable/README.md", "share/gable/docs/guide/first-rules.md", "share/gable/docs/reference/README.md",
                      "share/doc/gable/LICENSE"):
             self.assertTrue((TREE / name).is_file(), name)
         for name in ("libgable.a", "pkgconfig/gable.pc", "cmake/gable/gableConfig.cmake",
