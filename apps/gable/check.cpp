@@ -5,6 +5,7 @@
 
 #include "answer.h"
 #include "commands.h"
+#include "progress.h"
 
 int runCheck(const CheckArguments& arguments) {
   gable::DiagnosticList all;
@@ -30,13 +31,15 @@ int runCheck(const CheckArguments& arguments) {
       std::count_if(all.begin(), all.end(), [](const auto& d) { return d.isError(); }));
   print(all, stdout);
   const size_t others = all.size() - errors;
-  const bool warned = std::any_of(all.begin(), all.end(), [](const auto& d) {
-    return d.severity == gable::Diagnostic::Severity::Warning;
-  });
   if (!all.empty()) {
     tell(std::to_string(errors) + (errors == 1 ? " error, " : " errors, ") +
          std::to_string(others) + (others == 1 ? " warning\n" : " warnings\n"));
   }
+  if (all.empty() && !arguments.disassemble && Progress::isShown()) {
+    const bool one = arguments.rules.size() == 1;
+    note(one ? arguments.rules[0] + ": no mistakes"
+             : std::to_string(arguments.rules.size()) + " files: no mistakes");
+  }
   if (missing) return kExitFile;
-  return statusOf(all, errors > 0 || (arguments.strict && warned) ? kExitWrong : kExitDone);
+  return statusOf(all, errors > 0 || (arguments.strict && hasWarned()) ? kExitWrong : kExitDone);
 }

@@ -22,6 +22,8 @@ struct GenerateArguments {
   int count = 0;
   /// Run again whenever a file that is read changes, until Ctrl-C.
   bool watch = false;
+  /// Warnings end it with status 1, as those of runCheck do; the model is written all the same.
+  bool strict = false;
 };
 int runGenerate(const GenerateArguments& arguments);
 

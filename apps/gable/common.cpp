@@ -138,14 +138,19 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
     const Progress progress("reading " + arguments.shapes);
     inputs.shapes = gable::Shapes::load(arguments.shapes, limits, selectionOf(arguments));
   } else {
+    const bool isFace = !arguments.face.empty();
+    const std::string& given = isFace ? arguments.face : arguments.lot;
     double sides[2] = {20, 20};
-    if (!arguments.lot.empty() && !parseExtent(arguments.lot, {1e-300, kMetres.most}, sides)) {
-      return wrongOption("--lot",
-                         "width x depth in metres, such as 30x40, or one number for a square",
-                         arguments.lot);
+    if (!given.empty() && !parseExtent(given, {1e-300, kMetres.most}, sides)) {
+      return isFace
+                 ? wrongOption("--face", "width x height in metres, such as 12x9", given)
+                 : wrongOption("--lot",
+                               "width x depth in metres, such as 30x40, or one number for a square",
+                               given);
     }
-    if (arguments.lot.empty()) tellUsualLot(arguments.rules);
-    inputs.shapes = gable::Shapes::lot(sides[0], sides[1]);
+    if (given.empty()) tellUsualLot(arguments.rules);
+    inputs.shapes =
+        isFace ? gable::Shapes::face(sides[0], sides[1]) : gable::Shapes::lot(sides[0], sides[1]);
   }
   print(inputs.shapes.diagnostics());
   if (arguments.cutNested && inputs.shapes.size() > 0) {

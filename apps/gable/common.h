@@ -53,6 +53,8 @@ struct DeriveArguments {
   /// Which features of --shapes: a layer, and a property or PROPERTY=VALUE.
   std::string layer, only;
   std::string lot;
+  /// An upright face in its place.
+  std::string face;
   bool cutNested = false;
   std::optional<std::string> start;
   std::vector<std::string> set;

@@ -51,6 +51,7 @@ int takeBox(const std::string& text, gable::Shapes& shapes) {
 
 int generateOnce(const GenerateArguments& arguments) {
   const double begin = secondsNow();
+  hasWarned();
   std::vector<std::string> formats = gable::modelExtensions();
   formats.emplace_back("png");
   if (const int status = checkExtension(arguments.output, formats)) return status;
@@ -80,7 +81,8 @@ int generateOnce(const GenerateArguments& arguments) {
     const std::string text = gable::statisticsJson(model, figures);
     if (const int status = writeCounts(arguments.stats, text)) return status;
   }
-  return statusOf(model);
+  const int status = statusOf(model);
+  return status == kExitDone && arguments.strict && hasWarned() ? kExitWrong : status;
 }
 
 }  // namespace

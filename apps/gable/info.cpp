@@ -19,7 +19,8 @@ using Annotations = std::vector<gable::AttributeInfo::Annotation>;
 constexpr uint64_t kMostShapes = 1000;
 constexpr uint64_t kMostSteps = 1'000'000;
 
-std::vector<gable::NamedValue> valuesOf(Inputs& inputs) {
+std::vector<gable::NamedValue> valuesOf(Inputs& inputs, bool all) {
+  inputs.settings.importedAttributes = all;
   inputs.settings.limits.shapes = std::min(inputs.settings.limits.shapes, kMostShapes);
   inputs.settings.limits.steps = std::min(inputs.settings.limits.steps, kMostSteps);
   const gable::Model model = gable::derive(inputs.rules, inputs.shapes, inputs.settings);
@@ -91,6 +92,24 @@ void printStartRules(const gable::Rules& rules, bool all) {
   printRest(rest);
 }
 
+// What --start takes besides, and what gable trace may be asked for.
+void printOtherRules(const gable::Rules& rules) {
+  const std::string first = rules.startRule().value_or(std::string());
+  std::vector<const gable::RuleInfo*> others;
+  const std::vector<gable::RuleInfo> all = rules.rules();
+  for (const gable::RuleInfo& r : all) {
+    const bool starts = r.name == first || (r.start && r.parameters == 0);
+    if (!starts) others.push_back(&r);
+  }
+  title("other rules", !others.empty());
+  for (const gable::RuleInfo* r : others) {
+    const std::string count = r->parameters == 0   ? ""
+                              : r->parameters == 1 ? "1 parameter"
+                                                   : std::to_string(r->parameters) + " parameters";
+    row(r->name, r->file + ":" + std::to_string(r->line), count);
+  }
+}
+
 void printAttributes(const gable::Rules& rules, const std::vector<gable::NamedValue>& values,
                      bool all) {
   title("attributes", !rules.attributes().empty());
@@ -112,6 +131,7 @@ void printAttributes(const gable::Rules& rules, const std::vector<gable::NamedVa
 void printInfo(const gable::Rules& rules, const std::vector<gable::NamedValue>& values, bool all) {
   if (!rules.description().empty()) std::printf("%s\n", rules.description().c_str());
   printStartRules(rules, all);
+  if (all) printOtherRules(rules);
   printAttributes(rules, values, all);
   title("styles", rules.styles().size() > 1);
   for (size_t i = 0; rules.styles().size() > 1 && i < rules.styles().size(); ++i) {
@@ -138,7 +158,7 @@ int runInfo(const InfoArguments& arguments) {
     if (status == kExitWrong) addMembers(inputs.rules, {});
     return status;
   }
-  const std::vector<gable::NamedValue> values = valuesOf(inputs);
+  const std::vector<gable::NamedValue> values = valuesOf(inputs, arguments.all || terminal().json);
   addMembers(inputs.rules, values);
   if (!terminal().json) printInfo(inputs.rules, values, arguments.all);
   return kExitDone;

@@ -141,12 +141,23 @@ void addDeriveOptions(CLI::App* app, DeriveArguments& a) {
   auto* shapes = app->add_option(
       "--shapes", a.shapes,
       "Footprints: .geojson .json .city.json .osm .pbf .gpkg .fgb .shp .kml\n.dxf .obj .gltf .glb");
-  app->add_option("--lot", a.lot, "A rectangular lot in metres, such as 30x40 (default 20x20)")
-      ->excludes(shapes);
+  auto* lot =
+      app->add_option("--lot", a.lot, "A rectangular lot in metres, such as 30x40 (default 20x20)")
+          ->excludes(shapes);
+  app->add_option(
+         "--face", a.face,
+         "An upright face in metres, width x height, such as 12x9: for the rules of a wall")
+      ->excludes(shapes)
+      ->excludes(lot);
   app->add_option("--only", a.only,
                   "Only features of --shapes with this property: building, or landuse=grass\n"
                   "(default for OpenStreetMap: building)")
-      ->needs(shapes);
+      ->needs(shapes)
+      ->check([](const std::string& text) {
+        return text.empty() || text[0] == '='
+                   ? "'" + text + "' names no property: write building or landuse=grass"
+                   : std::string();
+      });
   app->add_option("--layer", a.layer, "The layer of --shapes, where it has several")->needs(shapes);
   app->add_flag("--cut-nested", a.cutNested, "Cut footprints out of larger ones that they lie in");
   app->add_option(
@@ -255,6 +266,9 @@ void addGenerate(CLI::App& app, GenerateArguments& a, int& status) {
       ->needs("--shapes");
   addWriting(generate, a.write);
   addRuns(generate, a.count, a.watch);
+  generate->add_flag(
+      "--strict", a.strict,
+      "Exit with status 1 where there are warnings; the model is written all the same");
   generate->callback([&a, &status] { status = runGenerate(a); });
 }
 

@@ -65,6 +65,8 @@ std::string paintedLine(std::string_view line) {
 
 // Of tell() and put(), on the main thread alone.
 bool told = false;
+// Of print(), likewise.
+bool warned = false;
 
 }  // namespace
 
@@ -105,6 +107,9 @@ std::string painted(const std::string& diagnostics, std::FILE* stream) {
 }
 
 void print(const gable::DiagnosticList& diagnostics, std::FILE* stream) {
+  warned = warned || std::any_of(diagnostics.begin(), diagnostics.end(), [](const auto& d) {
+             return d.severity == gable::Diagnostic::Severity::Warning;
+           });
   if (terminal().json) {
     answer().add(diagnostics);
     return;
@@ -129,6 +134,8 @@ void put(const std::string& text) {
   const Progress::Pause pause;
   std::fputs(text.c_str(), stdout);
 }
+
+bool hasWarned() { return std::exchange(warned, false); }
 
 bool hasTold() { return std::exchange(told, false); }
 

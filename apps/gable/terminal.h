@@ -44,6 +44,9 @@ std::string painted(const std::string& diagnostics, std::FILE* stream);
 /// Prints diagnostics, or puts them into the answer.
 void print(const gable::DiagnosticList& diagnostics, std::FILE* stream = stderr);
 
+/// Whether print() got a warning since the last question, shown or not.
+bool hasWarned();
+
 /// Says what went well, to people: nothing with --quiet or --json.
 void tell(const std::string& text);
 /// Prints what was asked for, as text; nothing with --json, where the answer has it.

@@ -33,6 +33,9 @@ class Shapes {
  public:
   /// A rectangle: a corner at the origin, `width` along +x, `depth` along -z, facing up.
   static Shapes lot(double width, double depth);
+  /// An upright rectangle, as the front of a house is: `width` along +x, `height` along +y, facing
+  /// south (+z). Its axes are those of a wall that comp(f) gives.
+  static Shapes face(double width, double height);
   using Ring = std::vector<std::pair<double, double>>;
   /// A polygon in plan coordinates (x east, y north), counter-clockwise, with holes. A ring may
   /// repeat its first point at its end.

@@ -44,8 +44,6 @@ std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, const Rules:
   ValuePool& pool = *r.pool;
   std::vector<InitialShape> out;
   out.reserve(shapes.footprints.size());
-  // Whether the rules have one of the name.
-  std::map<std::string, bool> rules;
   for (const ShapeFootprint& f : shapes.footprints) {
     if (cancel && cancel->load()) break;
     InitialShape s;
@@ -58,12 +56,11 @@ std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, const Rules:
     s.materials = f.materials;
     s.groups = f.groups;
     s.index = f.index;
+    s.upright = f.upright;
     for (const AttributeValue& a : f.attributes) {
       if (namesStartRule(a)) {
         const std::string& name = a.values[0].text;
-        const auto [rule, fresh] = rules.try_emplace(name, false);
-        if (fresh) rule->second = !name.empty() && program.findRule(name) >= 0;
-        if (rule->second) s.startRule = name;
+        if (!name.empty() && program.findRule(name) >= 0) s.startRule = name;
       }
       const Value value = valueOfAttribute(a, pool);
       if (EdgeAttributes::isNamed(a.name, value.isArray()) && value.isArray()) {
@@ -154,6 +151,35 @@ std::vector<std::string_view> startNames(const Program& program) {
   return names;
 }
 
+// Of a name that leaves out the import's, where rules of several imports have it. The first of them
+// is taken, as ever.
+std::optional<Diagnostic> ambiguousStart(const Program& program, const std::string& name,
+                                         const std::string& who) {
+  constexpr size_t kShown = 5;
+  std::vector<std::string> names;
+  for (const uint32_t rule : program.rulesAlike(name)) {
+    const std::string& one = program.rules[rule].qualifiedName;
+    if (one == name) return std::nullopt;
+    // Calls that give an import values of their own have rules of the same name.
+    if (std::find(names.begin(), names.end(), one) == names.end()) names.push_back(one);
+  }
+  if (names.size() < 2) return std::nullopt;
+  std::string list;
+  for (size_t i = 0; i < names.size() && i < kShown; ++i) {
+    list += (i == 0 ? "'" : i + 1 == names.size() ? " or '" : ", '") + names[i] + "'";
+  }
+  if (names.size() > kShown) list += " or " + std::to_string(names.size() - kShown) + " more";
+  return diagnosticOf({Severity::Warning,
+                       "ambiguous-start-rule",
+                       Span{},
+                       who + " '" + name + "' to start with, which may be " + list + "; '" +
+                           names[0] + "' is taken",
+                       "write the name of the import before it, as '" + names[1] + "'",
+                       {},
+                       {}},
+                      Sources{});
+}
+
 // The attributes and the start rule that the caller names, by their numbers in the program.
 void bindSettings(const Rules::Impl& rules, const DeriveSettings& settings, DeriveOptions& options,
                   DiagnosticList& wrong) {
@@ -200,7 +226,11 @@ void bindSettings(const Rules::Impl& rules, const DeriveSettings& settings, Deri
   checkTraceFilter(program, settings.traceFilter, wrong);
   if (settings.startRule) {
     options.startRule = program.findRule(*settings.startRule);
-    if (options.startRule >= 0) return;
+    if (options.startRule >= 0) {
+      const auto told = ambiguousStart(program, *settings.startRule, "the settings name");
+      if (told) wrong.push_back(*told);
+      return;
+    }
     complain(
         {"unknown-start-rule",
          "the rules have no rule '" + *settings.startRule + "' without parameters to start with",
@@ -227,14 +257,18 @@ std::map<std::string, size_t> namedStarts(const Shapes::Impl& shapes) {
   return counts;
 }
 
-// Those that there are none of. What stands on a map was not written for these rules.
-DiagnosticList unknownStarts(const std::map<std::string, size_t>& starts, bool ofMap,
+// Those that there are none of, or several. What stands on a map was not written for these rules.
+DiagnosticList unclearStarts(const std::map<std::string, size_t>& starts, bool ofMap,
                              const Program& program) {
   DiagnosticList out;
   if (ofMap) return out;
   for (const auto& [name, count] : starts) {
-    if (program.findRule(name) >= 0 || out.size() >= kMostDiagnostics) continue;
+    if (out.size() >= kMostDiagnostics) break;
     const std::string who = count == 1 ? "a shape names" : std::to_string(count) + " shapes name";
+    if (program.findRule(name) >= 0) {
+      if (const auto told = ambiguousStart(program, name, who)) out.push_back(*told);
+      continue;
+    }
     out.push_back(diagnosticOf(
         {Severity::Warning,
          "unknown-start-rule",
@@ -271,6 +305,7 @@ DeriveOptions optionsOf(const DeriveSettings& settings, const Rules::Impl& rules
   options.trace = settings.trace;
   options.traceFilter = settings.traceFilter;
   options.traceShapes = settings.trace && settings.traceShapes;
+  options.importedAttributes = settings.importedAttributes;
   options.jobs = settings.jobs.value_or(0);
   options.limits = settings.limits;
   options.progress = settings.progress;
@@ -440,7 +475,7 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
   impl->diagnostics.insert(impl->diagnostics.end(), made.begin(), made.end());
   for (const DiagnosticList& some :
        {outsideValues(initial, r), unusedProperties(shapes.impl(), r),
-        cityRuleNotes(shapes.impl(), r), unknownStarts(starts, shapes.impl().ofMap, r.program)}) {
+        cityRuleNotes(shapes.impl(), r), unclearStarts(starts, shapes.impl().ofMap, r.program)}) {
     impl->diagnostics.insert(impl->diagnostics.end(), some.begin(), some.end());
   }
   makeSound(*impl, options);

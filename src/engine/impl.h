@@ -41,6 +41,8 @@ struct ShapeFootprint {
   int64_t index = -1;
   /// Its attributes reach attributes of imported files as well: see Rules::Impl::open.
   bool reachesImports = false;
+  /// See InitialShape.
+  bool upright = false;
 };
 
 struct Rules::Impl {

@@ -47,6 +47,7 @@ void addAttributes(const Model::Impl& model, size_t shape, std::vector<Attribute
   for (const EvaluatedAttribute& a : model.result.attributes[shape]) {
     work();
     const std::string& name = model.rules->program.attributes[a.attribute].name;
+    if (name.find('.') != std::string::npos) continue;
     const bool isRead = read && std::binary_search(read->begin(), read->end(), a.attribute);
     if (!isRead && !model.setAttributes.count(name)) continue;
     out.push_back(plainAttribute(name, a.value, *model.rules->pool));

@@ -314,6 +314,18 @@ Shapes Shapes::lot(double width, double depth) {
   }));
 }
 
+Shapes Shapes::face(double width, double height) {
+  return Shapes(guarded<Impl>([&] {
+    auto impl =
+        ofMesh({{0, 0, 0}, {width, 0, 0}, {width, height, 0}, {0, height, 0}}, {{0, 1, 2, 3}}, {});
+    for (ShapeFootprint& f : impl->footprints) {
+      f.name = "face";
+      f.upright = true;
+    }
+    return impl;
+  }));
+}
+
 Shapes Shapes::polygon(const Ring& outer, const std::vector<Ring>& holes) {
   return Shapes(guarded<Impl>(Task("making a polygon", {}, {}), [&] {
     const auto ring = [](const Ring& r) {

@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "base/work.h"
 #include "engine/impl.h"
+#include "material/material.h"
 
 namespace gable {
 
@@ -147,6 +148,13 @@ std::optional<Diagnostics::Entry> outsideOf(const AttributeCode& a, const Value&
       if (v.number >= least.number && v.number <= most.number) continue;
       return entry(Severity::Warning, "meant to be from " + written(least) + " to " + written(most),
                    "the rules take it as it is; what they make of it may be of no use");
+    }
+    if (note.name == "Color" && v.type == ValueType::String && !pool.text(v.id).empty()) {
+      Vec3 rgb;
+      double opacity = 1;
+      if (parseColor(pool.text(v.id), rgb, opacity)) continue;
+      return entry(Severity::Warning, "meant to be a colour",
+                   "write \"#rrggbb\" or \"#rrggbboo\"; the rules take it as it is");
     }
     if (note.name != "Enum" || named("valuesAttr").type == ValueType::String) continue;
     std::string allowed;

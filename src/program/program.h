@@ -12,8 +12,10 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/diagnostic.h"
@@ -297,12 +299,25 @@ struct Program {
   /// The rule to start with unless the user names one; -1 when the file has none.
   int32_t startRule = -1;
 
-  /// The first rule of that name (qualified or not) that takes no parameters; -1 for none.
+  /// Makes the index of names; once, when all rules and attributes are there.
+  void indexNames();
+  /// The rule of that qualified name that takes no parameters, else the first of rulesAlike; -1 for
+  /// none. O(log rules), as is findAttribute.
   int32_t findRule(std::string_view name) const;
+  /// The rules without parameters that are called so behind the names of imports, in their order.
+  std::vector<uint32_t> rulesAlike(std::string_view name) const;
   int32_t findAttribute(std::string_view name) const;
   /// The rule to whose code an instruction belongs; -1 for none. Rules lie in the code in their
   /// order, each from its entry to the next one's. O(log rules).
   int32_t ruleAt(uint32_t instruction) const;
+
+ private:
+  struct NamedRules {
+    int32_t qualified = -1;
+    std::vector<uint32_t> alike;
+  };
+  std::map<std::string, NamedRules, std::less<>> rulesByName_;
+  std::map<std::string, uint32_t, std::less<>> attributesByName_;
 };
 
 /// A readable listing, for goldens and for people.

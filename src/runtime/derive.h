@@ -37,6 +37,9 @@ struct InitialShape {
   Frame origin;
   /// Attributes by name; they set rule attributes of the same name.
   std::vector<std::pair<std::string, Value>> attributes;
+  /// The scope has the axes of the object frame, as a wall from comp(f) that looks along z. Else y
+  /// is the normal of a single face.
+  bool upright = false;
   /// Empty: the derivation's start rule.
   std::string startRule;
   /// What identifies the shape for randomness: its feature id or name; empty: its index.
@@ -136,6 +139,8 @@ struct DeriveOptions {
   bool traceShapes = false;
   /// With `trace`: what of it is kept.
   TraceFilter traceFilter;
+  /// Evaluate the attributes of imported files as well.
+  bool importedAttributes = false;
   int jobs = 1;
   Limits limits;
   /// Attribute values for all initial shapes, over those of the shapes.
@@ -181,7 +186,8 @@ struct DeriveResult {
   std::vector<TraceNote> notes;
   /// Sets of tags that nodes of the trace have, in the order of the nodes; the first is empty.
   std::vector<std::vector<StringId>> traceTags;
-  /// Rule attributes of each initial shape as they were evaluated: visible ones of the main file.
+  /// Rule attributes of each initial shape as they were evaluated: visible ones of the main file,
+  /// and of imported ones where the options ask for them.
   std::vector<std::vector<EvaluatedAttribute>> attributes;
   /// Sorted by group; none where no shape asked.
   std::vector<RoomTotal> rooms;

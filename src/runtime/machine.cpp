@@ -177,6 +177,10 @@ void Machine::begin(const InitialShape& input, uint32_t index) {
   info_.seed = seed;
   info_.shape = Shape{};
   setInitialGeometry(info_.shape, taggedMesh(input, tags()));
+  if (input.upright) {
+    alignScope(info_.shape, Frame{});
+    info_.shape.pivot = info_.shape.scope;
+  }
   setInitialMaterials(input);
   info_.shape.path = hashCombine(hashDouble(seed), identity);
   info_.edges = edgesOf(input);
@@ -289,7 +293,13 @@ std::vector<EvaluatedAttribute> Machine::attributeValues() {
   std::vector<EvaluatedAttribute> out;
   for (uint32_t a = 0; a < program_.attributes.size(); ++a) {
     const AttributeCode& code = program_.attributes[a];
-    if (code.constant || !shownAttributes_[a] || code.name.find('.') != std::string::npos) continue;
+    if (code.constant || !shownAttributes_[a]) continue;
+    if (code.name.find('.') != std::string::npos) {
+      // Those of a call that gives an import values of its own have the names of the import's.
+      const bool own =
+          code.propagatesFrom < 0 && program_.findAttribute(code.name) == static_cast<int32_t>(a);
+      if (!options().importedAttributes || !own) continue;
+    }
     aborted_ = false;
     openAttributes_.drop();
     stack_.cut(0);

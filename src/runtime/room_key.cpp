@@ -60,6 +60,7 @@ void addShape(KeyHash& h, Given& given, const InitialShape& s) {
   h.add(hashBytes(s.startRule));
   h.add(hashBytes(s.identity));
   h.add(static_cast<uint64_t>(s.index));
+  h.add(uint64_t{s.upright});
   h.add(uint64_t{s.seed.has_value()});
   h.add(s.seed.value_or(0));
   h.add(s.origin);

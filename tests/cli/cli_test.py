@@ -120,6 +120,48 @@ class Options(Case):
         self.run_gable("check", "warned.cga", "--strict", status=WRONG, says="0 errors, 2 warnings")
         self.run_gable("check", "good.cga", "--strict")
 
+    def testStrictModelsAreWrittenAndFail(self):
+        self.put("good.cga", "Lot --> extrude(9) X.")
+        self.put("warned.cga", "Lot --> extrude(9) Wal")
+        self.run_gable("generate", "good.cga", "-o", "a.obj", "--strict")
+        self.run_gable("generate", "warned.cga", "-o", "b.obj")
+        self.run_gable("generate", "warned.cga", "-o", "c.obj", "--strict", status=WRONG)
+        self.run_gable("generate", "warned.cga", "-o", "c.obj", "--strict", "--quiet", status=WRONG)
+        self.assertTrue((self.folder / "c.obj").exists())
+
+    def testAChoiceOfFeaturesThatIsNoneIsTold(self):
+        square = [[[0, 0], [9, 0], [9, 9], [0, 9], [0, 0]]]
+        crs = {"type": "name", "properties": {"name": "EPSG:25832"}}
+        lot = {"type": "Feature", "geometry": {"type": "Polygon", "coordinates": square}, "properties": {"use": "shop"}}
+        self.put("lots.geojson", json.dumps({"type": "FeatureCollection", "crs": crs, "features": [lot]}))
+        self.put("lot.cga", "Lot --> X.")
+        for only, status, says in (("use=zzzz", WRONG, "has the value 'zzzz' for 'use'"), ("use=zzzz", WRONG, "write --only use=shop"),
+                                   ("storeys", WRONG, "has the property 'storeys'"), ("=shop", USAGE, "names no property")):
+            self.run_gable("generate", "lot.cga", "--shapes", "lots.geojson", "--only", only, "-o", "a.obj", status=status, says=says)
+
+    def testAFaceStandsUpright(self):
+        self.put("wall.cga", "Wall --> print(scope.sx) print(scope.sy) print(scope.sz) print(geometry.angle(zenith)) X.")
+        told = self.run_gable("generate", "wall.cga", "--face", "12x9", "-o", "a.obj")
+        self.assertEqual(told.split(), ["12", "9", "0", "0"])
+        self.run_gable("generate", "wall.cga", "--face", "12y9", "-o", "a.obj", status=USAGE, says="width x height")
+        self.run_gable("generate", "wall.cga", "--face", "9x9", "--lot", "9x9", "-o", "a.obj", status=USAGE, says="excludes")
+
+    def testRulesOfOneNameAreTold(self):
+        self.put("facade.cga", "Window --> extrude(1) Pane.\nDoor --> Leaf.")
+        self.put("house.cga", "Window --> extrude(2) Hole.")
+        self.put("main.cga", 'import facade : "facade.cga"\nimport house : "house.cga"\nLot --> facade.Window\n')
+        told = self.run_gable("generate", "main.cga", "--start", "Window", "-o", "a.obj", says="[ambiguous-start-rule]")
+        self.assertIn("'facade.Window' or 'house.Window'", told)
+        for start in ("Door", "Lot", "house.Window"):
+            told = self.run_gable("generate", "main.cga", "--start", start, "-o", "a.obj")
+            self.assertNotIn("ambiguous", told)
+        square = [[[0, 0], [9, 0], [9, 9], [0, 9], [0, 0]]]
+        lots = [{"type": "Feature", "geometry": {"type": "Polygon", "coordinates": square}, "properties": {"startRule": "Window"}}] * 2
+        crs = {"type": "name", "properties": {"name": "EPSG:25832"}}
+        self.put("lots.geojson", json.dumps({"type": "FeatureCollection", "crs": crs, "features": lots}))
+        told = self.run_gable("generate", "main.cga", "--shapes", "lots.geojson", "-o", "a.obj", says="2 shapes name 'Window'")
+        self.assertEqual(told.count("ambiguous-start-rule"), 1)
+
     def testWhatShapesBringIsAWarning(self):
         self.put("use.cga", '@Enum("house", "shop")\nattr use = "house"\nLot --> extrude(3) Wall.\nShed --> extrude(2) Wall.')
         square = [[[0, 0], [9, 0], [9, 9], [0, 9], [0, 0]]]
@@ -234,6 +276,9 @@ class Options(Case):
         self.assertIn("did you mean 'hip'?", told)
         for pair, says in (("height=99", "'height' is meant to be from 3 to 10, not 99"), ("n=7", "'n' is one of: 1, 2, not 7")):
             self.run_gable("generate", "house.cga", "--set", pair, "-o", "a.glb", says=says)
+        self.put("paint.cga", '@Color attr tint = "#ffffff"\nLot --> color(tint) A.')
+        self.run_gable("generate", "paint.cga", "--set", "tint=red", "-o", "a.glb", says="'tint' is meant to be a colour, not red")
+        self.assertNotIn("attribute-", self.run_gable("generate", "paint.cga", "--set", "tint=#ff0000", "-o", "a.glb"))
         for pair in ("roof=hip", "height=10", "free=c", "loose=9", "n=2"):
             told = self.run_gable("generate", "house.cga", "--set", pair, "-o", "a.glb")
             self.assertNotIn("attribute-", told)

@@ -224,7 +224,7 @@ class Info(Case):
         self.assertEqual(height["Handle"], [["shape", "Lot"], ["axis", "y"], ["reference", "edges"], ["align", "right"],
                                             ["slip", "{inside,h}"], ["translate", "{0,-1.5,0}"]])
         self.assertEqual([a["name"] for a in attributes["on"]["annotations"]].count("Handle"), 2)
-        self.assertEqual(told["values"], {"height": 9, "kind": "a", "on": True})
+        self.assertEqual(told["values"], {"height": 9, "kind": "a", "on": True, "w.width": 2})
         self.assertEqual([(i["name"], i["found"]) for i in told["imports"]], [("w", True), ("gone", False)])
         self.assertEqual([(a["path"], a["from"], a["found"]) for a in told["assets"]],
                          [("there.obj", "rules/main.cga", True), ("gone.obj", "rules/main.cga", False),

@@ -144,6 +144,17 @@ class Bar(Case):
         done = self.ran(*command[1:])
         self.assertEqual(done.stdout + done.stderr, "")
 
+    def testACheckSaysThatAllIsWell(self):
+        self.put("other.cga", "Lot --> extrude(9) X.")
+        status, shown = on_terminal([str(GABLE), "check", "good.cga"], self.folder)
+        self.assertEqual((status, shown), (DONE, "good.cga: no mistakes\r\n"))
+        status, shown = on_terminal([str(GABLE), "check", "good.cga", "other.cga"], self.folder)
+        self.assertEqual((status, shown), (DONE, "2 files: no mistakes\r\n"))
+        status, shown = on_terminal([str(GABLE), "check", "-q", "good.cga"], self.folder)
+        self.assertEqual((status, shown), (DONE, ""))
+        done = self.ran("check", "good.cga")
+        self.assertEqual(done.stdout + done.stderr, "")
+
     def testShapesHaveARate(self):
         square = [[[0, 0], [0.0003, 0], [0.0003, 0.0003], [0, 0.0003], [0, 0]]]
         lots = [{"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates":

@@ -53,6 +53,7 @@ class Compiler {
     closeDependence(program_, ruleUses_, functionUses_, initialiserUses_);
     program_.effects = effectsOf(r_);
     program_.startRule = r_.startRule == kNone ? -1 : static_cast<int32_t>(r_.startRule);
+    program_.indexNames();
     return std::move(program_);
   }
 
