@@ -83,6 +83,10 @@ class ProjectLoader final : public lang::FileLoader {
 
   std::string materialHint(const std::string& name) override { return gable::materialHint(name); }
 
+  std::string colorAbove(const std::string& material, const std::string& tint) override {
+    return gable::colorAbove(material, tint);
+  }
+
   std::vector<AssetUse> takeAssets() { return std::move(assets_); }
 
   std::vector<std::string> assets(const std::string&) override { return project_.assets(); }

@@ -252,6 +252,18 @@ const LibraryMaterial* libraryMaterial(std::string_view name) {
   return at != std::end(kLibrary) && at->name == name ? &*at : nullptr;
 }
 
+std::string colorAbove(std::string_view name, std::string_view tint) {
+  constexpr double kSeen = 0.1;
+  const LibraryMaterial* const m = libraryMaterial(name);
+  Vec3 rgb;
+  double opacity = 1;
+  if (!m || !parseColor(tint, rgb, opacity)) return {};
+  const auto channel = [&](int shift) { return (m->color >> shift & 255) / 255.0; };
+  const Vec3 own{channel(16), channel(8), channel(0)};
+  const double above = std::max({rgb.x - own.x, rgb.y - own.y, rgb.z - own.z});
+  return above < kSeen ? std::string() : colorText(own);
+}
+
 std::string materialHint(std::string_view given) {
   const std::string name = lowerCase(given);
   const std::string hint =

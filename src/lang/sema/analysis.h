@@ -247,6 +247,7 @@ class Analysis {
   static constexpr int kMaxFileHints = 50;
   void checkFiles(const Signature& s, std::span<const NodeId> arguments);
   void checkMaterial(NodeId node);
+  void checkTint(NodeId material, NodeId tint);
   void checkFile(NodeId node);
   NodeId writtenText(NodeId node) const;
   bool asksForFile(NodeId argument, std::string_view path);

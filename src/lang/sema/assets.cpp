@@ -113,6 +113,20 @@ void Analysis::checkMaterial(NodeId node) {
         loader_->materialHint(name));
 }
 
+// A material that is written out with a tint.
+void Analysis::checkTint(NodeId material, NodeId tint) {
+  if (!loader_ || module().original != module().id) return;
+  const NodeId name = writtenText(material), color = writtenText(tint);
+  if (name == kNoNode || color == kNoNode || isMute()) return;
+  const std::string own = loader_->colorAbove(std::string(text(name)), std::string(text(color)));
+  if (own.empty()) return;
+  warning("tint-capped", tree().span(color),
+          "the tint is brighter than the material " + quote(text(name)) + ", which is " + own +
+              " at most",
+          "it stays at that colour where it is brighter; for light tints take 'plaster.clean', "
+          "'brick.white', 'boards.lap' or 'metal.painted'");
+}
+
 void Analysis::checkFile(NodeId node) {
   if (!loader_ || module().original != module().id) return;
   const NodeId written = writtenText(node);
@@ -136,14 +150,22 @@ void Analysis::checkFile(NodeId node) {
 
 // The arguments of a call for which there must be a file.
 void Analysis::checkFiles(const Signature& s, std::span<const NodeId> args) {
+  const auto valueOf = [&](NodeId argument) {
+    const bool isNamed = tree().kind(argument) == NodeKind::NamedArg;
+    return isNamed ? tree().child(argument, 0) : argument;
+  };
   for (size_t i = 0; i < args.size(); ++i) {
     const size_t p = parameterOf(s, args, i);
     if (p == kNoParameter || !s.paramAt(p)) continue;
     const ParamSpec& param = *s.paramAt(p);
-    const bool named = tree().kind(args[i]) == NodeKind::NamedArg;
-    const NodeId value = named ? tree().child(args[i], 0) : args[i];
+    const NodeId value = valueOf(args[i]);
     if (param.name == kFileParameter) checkFile(value);
-    if (param.form && param.form->name == kMaterialForm) checkMaterial(value);
+    if (param.form && param.form->name == kMaterialForm) {
+      checkMaterial(value);
+      for (size_t other = 0; other < args.size(); ++other) {
+        if (parameterOf(s, args, other) == p + 1) checkTint(value, valueOf(args[other]));
+      }
+    }
   }
 }
 

@@ -52,26 +52,10 @@ struct LibraryCall {
   std::optional<std::string_view> tint;
 };
 
-// A picture can be made darker by a tint, but no brighter. What is hardly seen is not told.
-void noteBrightTint(OpCall& call, std::string_view name, const Vec3& tint) {
-  constexpr double kSeen = 0.1;
-  const LibraryMaterial* const m = libraryMaterial(name);
-  if (!m) return;
-  const auto channel = [&](int shift) { return (m->color >> shift & 255) / 255.0; };
-  const Vec3 own{channel(16), channel(8), channel(0)};
-  if (std::max({tint.x - own.x, tint.y - own.y, tint.z - own.z}) < kSeen) return;
-  call.services().note("tint-capped",
-                       "the tint is brighter than the material '" + std::string(name) +
-                           "', which is " + colorText(own) + " at most",
-                       "it stays at that colour where it is brighter; for light tints take "
-                       "'plaster.clean', 'brick.white', 'boards.lap' or 'metal.painted'");
-}
-
 Status applyMaterial(OpCall& call, const LibraryCall& args) {
   Vec3 rgb;
   double opacity = kKeepOpacity;
   const bool tinted = args.tint && parseColor(*args.tint, rgb, opacity);
-  if (tinted) noteBrightTint(call, args.name, rgb);
   return setLibraryMaterial(call.shape(), args.name, tinted ? &rgb : nullptr, call.services(),
                             call.file());
 }
