@@ -203,6 +203,38 @@ void tellNoBuildings(const MapFeatures& map, const std::string& path, Diagnostic
   for (Diagnostic& d : listOf(list, Sources{})) out.push_back(std::move(d));
 }
 
+// A box beside all buildings of its map is a slip.
+void tellBoxBesideBuildings(const MapFeatures& map, const std::string& path, DiagnosticList& out) {
+  Box2 all;
+  for (const MapFeature& f : map.features) {
+    if (!isBuilding(f)) continue;
+    Box2 own;
+    for (const Ring& r : f.rings) {
+      for (const Vec2 p : r) own.include(p);
+    }
+    if (own.empty()) continue;
+    const bool meets = own.min.x <= map.area.max.x && own.max.x >= map.area.min.x &&
+                       own.min.y <= map.area.max.y && own.max.y >= map.area.min.y;
+    if (meets) return;
+    all.include(own.min);
+    all.include(own.max);
+  }
+  if (all.empty()) return;
+  // As boxes are asked for, in degrees mostly.
+  const Vec2 local = map.area.max - map.area.min;
+  const auto text = [&](const Vec2& p) {
+    const Vec2 at = p - map.area.min;
+    const auto rounded = [](double v) { return shortestText(std::round(v * 1e5) / 1e5); };
+    return rounded(map.box.west + at.x / local.x * (map.box.east - map.box.west)) + "," +
+           rounded(map.box.south + at.y / local.y * (map.box.north - map.box.south));
+  };
+  Diagnostics list;
+  list.warning("map-box", {}, "no building of '" + path + "' lies in the box",
+               "its buildings go from " + text(all.min) + " to " + text(all.max) +
+                   "; give west,south,east,north");
+  for (Diagnostic& d : listOf(list, Sources{})) out.push_back(std::move(d));
+}
+
 Result<HeightField> heightsOf(const MapFeatures& map, const std::string& path, bool& found) {
   Result<std::string> content = readFile(path, kLargestHeightFile);
   found = content.ok();
@@ -251,6 +283,7 @@ std::shared_ptr<City::Impl> parsed(const std::string& content, const std::string
   impl->statistics = statisticsOf(impl->plan, impl->map);
   tellSkipped(impl->plan.skips, name, impl->diagnostics);
   tellNoBuildings(impl->map, name, impl->diagnostics);
+  if (box) tellBoxBesideBuildings(impl->map, name, impl->diagnostics);
   tellDoubts(impl->plan.doubts, name, impl->diagnostics);
   return impl;
 }

@@ -140,15 +140,31 @@ void Parser::skipUnit() {
   advance();
 }
 
+// Whether a value ends behind the token here: an argument, or a declaration before the next one.
+bool Parser::endsBehind() const {
+  const Token& next = ahead(1);
+  switch (next.kind) {
+    case TokenKind::Comma:
+    case TokenKind::RParen:
+    case TokenKind::At:
+    case TokenKind::End: return true;
+    default: break;
+  }
+  switch (next.keyword) {
+    case Keyword::Attr:
+    case Keyword::Const:
+    case Keyword::Style:
+    case Keyword::Import: return true;
+    default: return next.kind == TokenKind::Name && ahead(2).kind == TokenKind::Arrow;
+  }
+}
+
 // A '%' that nothing follows to divide by: 50% in the place of '0.5.
 bool Parser::skipPercent(NodeId left) {
-  const TokenKind next = ahead(1).kind;
-  if (!is(TokenKind::Percent) || (next != TokenKind::Comma && next != TokenKind::RParen)) {
-    return false;
-  }
+  if (!is(TokenKind::Percent) || !endsBehind()) return false;
   const bool written = tree_.kind(left) == NodeKind::Number;
   const std::string share = written ? shortestText(tree_.number(left) / 100) : "0.5";
-  error("unexpected-token", spanOf(current()), "'%' is no unit of an argument",
+  error("unexpected-token", spanOf(current()), "'%' is no unit of a value",
         "write '" + share + " for a share of the scope's size, " + share + " for a plain number");
   advance();
   return true;

@@ -191,6 +191,7 @@ class Parser {
   Sign operatorHere();
   bool unitAt(size_t at) const;
   void skipUnit();
+  bool endsBehind() const;
   bool skipPercent(NodeId left);
   bool notHere() const;
   NodeId parseNot();

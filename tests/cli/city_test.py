@@ -279,6 +279,7 @@ class City(Case):
         self.city("none.osm", "-o", "b.glb", status=FILE, says="none.osm")
         self.city("map.geojson", "--box", "1,2,3", "-o", "b.glb", status=USAGE, says="--box")
         self.city("map.geojson", "--box", "100000,50000,100001,50001", "-o", "b.glb", status=WRONG, says="lies in the box")
+        self.city("map.geojson", "--box", "35,-5,45,5", "-o", "c.glb", says="its buildings go from 0,0 to 80,60")
         self.put("empty.geojson", '{"type": "FeatureCollection", "features": []}')
         self.city("empty.geojson", "-o", "b.glb", status=WRONG, says="empty.geojson")
         self.assertFalse((self.folder / "b.glb").exists())

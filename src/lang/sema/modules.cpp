@@ -604,14 +604,16 @@ bool Analysis::isOpenAttribute(ModuleId module, std::string_view name) const {
 void Analysis::reportNoAttribute(ModuleId module, Span span, std::string_view name) {
   constexpr double kOverridesChecked = 2023.0;
   std::string message = "the imported file has no attribute " + quote(name);
-  std::string hint = near(name, [&] {
-    std::vector<std::string_view> names;
-    for (const auto& [n, id] : scopes_[module].attributes) {
-      if (!program_.attributes[id].constant) names.push_back(n);
-    }
-    std::sort(names.begin(), names.end());
-    return names;
-  });
+  constexpr size_t kFewNames = 8;
+  std::vector<std::string_view> names;
+  for (const auto& [n, id] : scopes_[module].attributes) {
+    if (!program_.attributes[id].constant) names.push_back(n);
+  }
+  std::sort(names.begin(), names.end());
+  std::string hint = near(name, [&] { return names; });
+  if (hint.empty() && names.size() <= kFewNames) {
+    for (const std::string_view n : names) hint += (hint.empty() ? "it has " : ", ") + quote(n);
+  }
   if (isBefore(kOverridesChecked, program_.modules[module].importer)) {
     warning("unknown-attribute", span, std::move(message), std::move(hint));
   } else {
