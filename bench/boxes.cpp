@@ -82,7 +82,8 @@ Program compileText(std::string text, const std::shared_ptr<ValuePool>& pool) {
   Sources sources;
   Diagnostics diagnostics;
   const uint32_t file = sources.add("bench.cga", std::move(text));
-  lang::AnalysisInput input{lang::parse(sources, file, diagnostics), "bench.cga", ""};
+  lang::AnalysisInput input{
+      std::make_shared<const lang::Tree>(lang::parse(sources, file, diagnostics)), "bench.cga", ""};
   const auto resolved =
       lang::analyse(std::move(input), builtinCatalogue(), *pool, nullptr, sources, diagnostics);
   for (const Diagnostics::Entry& d : diagnostics.all())
