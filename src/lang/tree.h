@@ -243,6 +243,11 @@ inline NodeId paramsOf(const Tree& t, NodeId declaration) { return t.child(decla
 inline NodeId localsOf(const Tree& t, NodeId declaration) { return t.child(declaration, 2); }
 inline NodeId bodyOf(const Tree& t, NodeId declaration) { return t.child(declaration, 3); }
 
+/// What an argument says, with a name before it or without.
+inline NodeId argumentValue(const Tree& t, NodeId argument) {
+  return t.kind(argument) == NodeKind::NamedArg ? t.child(argument, 0) : argument;
+}
+
 /// The name alone of a node whose span starts at its name.
 inline Span nameSpan(const Tree& t, NodeId id) {
   const Span s = t.span(id);

@@ -150,20 +150,17 @@ void Analysis::checkFile(NodeId node) {
 
 // The arguments of a call for which there must be a file.
 void Analysis::checkFiles(const Signature& s, std::span<const NodeId> args) {
-  const auto valueOf = [&](NodeId argument) {
-    const bool isNamed = tree().kind(argument) == NodeKind::NamedArg;
-    return isNamed ? tree().child(argument, 0) : argument;
-  };
   for (size_t i = 0; i < args.size(); ++i) {
     const size_t p = parameterOf(s, args, i);
     if (p == kNoParameter || !s.paramAt(p)) continue;
     const ParamSpec& param = *s.paramAt(p);
-    const NodeId value = valueOf(args[i]);
+    const NodeId value = argumentValue(tree(), args[i]);
     if (param.name == kFileParameter) checkFile(value);
     if (param.form && param.form->name == kMaterialForm) {
       checkMaterial(value);
       for (size_t other = 0; other < args.size(); ++other) {
-        if (parameterOf(s, args, other) == p + 1) checkTint(value, valueOf(args[other]));
+        if (parameterOf(s, args, other) == p + 1)
+          checkTint(value, argumentValue(tree(), args[other]));
       }
     }
   }

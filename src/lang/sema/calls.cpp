@@ -335,7 +335,7 @@ std::string Analysis::wordOfOther(const CallTarget& target, NodeId node,
 ValueType Analysis::visitArgumentFor(const CallTarget& target, std::span<const NodeId> args,
                                      size_t i, std::vector<uint16_t>& left, bool& isFit) {
   const bool named = tree().kind(args[i]) == NodeKind::NamedArg;
-  const NodeId value = named ? tree().child(args[i], 0) : args[i];
+  const NodeId value = argumentValue(tree(), args[i]);
   const auto paramOf = [&](uint16_t s) -> const ParamSpec& {
     const Signature& signature = target.signatures[s];
     return *signature.paramAt(parameterOf(signature, args, i));
@@ -385,8 +385,7 @@ std::span<const NodeId> Analysis::orderArguments(NodeId node, const Signature& s
   std::vector<NodeId>& order = module().namedArguments[node];
   order.assign(s.params.size(), kNoNode);
   for (size_t i = 0; i < args.size(); ++i) {
-    const bool named = tree().kind(args[i]) == NodeKind::NamedArg;
-    order[parameterOf(s, args, i)] = named ? tree().child(args[i], 0) : args[i];
+    order[parameterOf(s, args, i)] = argumentValue(tree(), args[i]);
   }
   return order;
 }
@@ -406,10 +405,9 @@ size_t Analysis::misfits(const Signature& signature, std::span<const NodeId> arg
   };
   size_t count = 0;
   for (size_t i = 0; i < args.size(); ++i) {
-    const bool named = tree().kind(args[i]) == NodeKind::NamedArg;
     const size_t p = parameterOf(signature, args, i);
     if (p == kNoParameter) continue;
-    count += isWrong(*signature.paramAt(p), named ? tree().child(args[i], 0) : args[i]) ? 1 : 0;
+    count += isWrong(*signature.paramAt(p), argumentValue(tree(), args[i])) ? 1 : 0;
   }
   return count;
 }
@@ -519,7 +517,7 @@ std::vector<ValueType> Analysis::visitArguments(std::span<const NodeId> args) {
 void Analysis::visitMisfits(const CallTarget& target, std::span<const NodeId> args) {
   for (size_t i = 0; i < args.size(); ++i) {
     const bool named = tree().kind(args[i]) == NodeKind::NamedArg;
-    const NodeId value = named ? tree().child(args[i], 0) : args[i];
+    const NodeId value = argumentValue(tree(), args[i]);
     const bool unknown = named && std::all_of(target.signatures.begin(), target.signatures.end(),
                                               [&](const Signature& s) {
                                                 return parameterOf(s, args, i) == kNoParameter;

@@ -149,7 +149,7 @@ void Analysis::visitTerm(NodeId node, const TermSpec& term, const ParamSpec& par
     size_t place = named ? 0 : i;
     while (named && place < wanted.size() && t.text(args[i]) != wanted[place].name) ++place;
     right = right && place < wanted.size() && order[place] == kNoNode;
-    if (right) order[place] = named ? t.child(args[i], 0) : args[i];
+    if (right) order[place] = argumentValue(t, args[i]);
   }
   for (size_t p = 0; p < wanted.size(); ++p) {
     right = right && (order[p] != kNoNode || wanted[p].defaultText != nullptr);

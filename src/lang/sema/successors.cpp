@@ -296,8 +296,7 @@ std::string listText(const Sources& sources, const Tree& t, std::span<const Node
   std::string out;
   for (const NodeId a : args) {
     if ((t.kind(a) == NodeKind::NamedArg) != named) continue;
-    const NodeId value = named ? t.child(a, 0) : a;
-    const Span span = t.span(value);
+    const Span span = t.span(argumentValue(t, a));
     out += (out.empty() ? "" : ", ") + (named ? std::string(t.text(a)) + " = " : std::string()) +
            std::string(sources.text(span.file).substr(span.begin, span.end - span.begin));
   }

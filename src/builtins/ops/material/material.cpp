@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 
-#include <algorithm>
 #include <string>
 
 #include "builtins/lists.h"
 #include "builtins/shared/materials.h"
 #include "builtins/shared/text_forms.h"
-#include "material/library.h"
 #include "program/tag_effects.h"
 #include "shape/op_call.h"
 
