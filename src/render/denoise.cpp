@@ -83,26 +83,15 @@ struct Guide {
   Planes light;
   Plane nx, ny, nz, distance, known;
 
-  explicit Guide(const Film& film)
+  Guide(const Film& film, unsigned threads)
       : width(static_cast<int>(film.width)),
         height(static_cast<int>(film.height)),
         light(film.direct.size()) {
-    const size_t pixels = film.direct.size();
-    for (Plane* p : {&nx, &ny, &nz, &distance, &known}) p->resize(pixels);
-    for (size_t i = 0; i < pixels; ++i) {
-      nx[i] = film.normal[i].x;
-      ny[i] = film.normal[i].y;
-      nz[i] = film.normal[i].z;
-      distance[i] = film.distance[i];
-      known[i] = luminance(film.albedo[i]) > kLeastTone ? 1.0f : 0.0f;
-    }
-    for (int y = 0; y < height; ++y) {
-      work(static_cast<size_t>(width));
-      for (int x = 0; x < width; ++x) {
-        const size_t i = index(x, y);
-        light.set(i, film.irradiance[i], noiseAbout(film, x, y));
-      }
-    }
+    for (Plane* p : {&nx, &ny, &nz, &distance, &known}) p->resize(film.direct.size());
+    parallelWork(film.height, threads, [&](size_t y, unsigned) {
+      work(film.width);
+      for (int x = 0; x < width; ++x) set(film, x, static_cast<int>(y));
+    });
   }
 
   size_t index(int x, int y) const {
@@ -118,6 +107,16 @@ struct Guide {
   }
 
  private:
+  void set(const Film& film, int x, int y) {
+    const size_t i = index(x, y);
+    nx[i] = film.normal[i].x;
+    ny[i] = film.normal[i].y;
+    nz[i] = film.normal[i].z;
+    distance[i] = film.distance[i];
+    known[i] = luminance(film.albedo[i]) > kLeastTone ? 1.0f : 0.0f;
+    light.set(i, film.irradiance[i], noiseAbout(film, x, y));
+  }
+
   /// The variance about a pixel: single estimates of few samples are unreliable.
   float noiseAbout(const Film& film, int x, int y) const {
     float sum = 0;
@@ -324,24 +323,27 @@ void smooth(Guide& guide, int reach, int gap, unsigned threads) {
 }  // namespace
 
 std::vector<Vec3f> resolve(const Film& film, Smoothing smoothing, unsigned threads) {
-  std::vector<Vec3f> picture = film.direct;
-  for (size_t i = 0; i < picture.size(); ++i) picture[i] += film.sun[i];
-  const auto add = [&](size_t i, const Vec3f& irradiance) {
-    picture[i] += irradiance * albedoDivisor(film.albedo[i]);
+  std::vector<Vec3f> picture(film.direct.size());
+  const auto put = [&](const auto& irradiance) {
+    parallelWork(film.height, threads, [&](size_t y, unsigned) {
+      work(film.width);
+      for (size_t i = y * film.width; i < (y + 1) * film.width; ++i) {
+        picture[i] = film.direct[i] + film.sun[i] + irradiance(i) * albedoDivisor(film.albedo[i]);
+      }
+    });
   };
   if (smoothing == Smoothing::None) {
-    for (size_t i = 0; i < picture.size(); ++i) add(i, film.irradiance[i]);
+    put([&](size_t i) { return film.irradiance[i]; });
     return picture;
   }
-  Guide guide(film);
+  Guide guide(film, threads);
   if (smoothing == Smoothing::Sky) {
     smooth(guide, kSkyReach, 1, threads);
     smooth(guide, kBlockReach, kBlockGap, threads);
   } else {
     for (const int gap : kGaps) smooth(guide, kReach, gap, threads);
   }
-  for (size_t i = 0; i < picture.size(); ++i)
-    add(i, {guide.light.r[i], guide.light.g[i], guide.light.b[i]});
+  put([&](size_t i) { return Vec3f{guide.light.r[i], guide.light.g[i], guide.light.b[i]}; });
   return picture;
 }
 

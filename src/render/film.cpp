@@ -181,12 +181,12 @@ struct Tile {
 /// What samples have added to the pixels of a film, and how far those of each disagree.
 class FilmSums {
  public:
-  explicit FilmSums(const Film& film)
+  FilmSums(const Film& film, unsigned threads)
       : rows_(film.height), variance_(static_cast<size_t>(film.width) * film.height) {
-    for (std::vector<Mix>& row : rows_) {
+    parallelWork(film.height, threads, [&](size_t y, unsigned) {
       work(kWorkBetweenLooks + 1);
-      row.resize(film.width);
-    }
+      rows_[y].resize(film.width);
+    });
   }
 
   /// `share` for what all paths know, `wholeShare` for what whole ones do.
@@ -450,7 +450,7 @@ bool tracePicture(const Stage& stage, const Camera& camera, const Lens& lens,
                   const RenderOptions& options, Film& film, uint64_t& rays) {
   film.width = options.width;
   film.height = options.height;
-  FilmSums sums(film);
+  FilmSums sums(film, options.threads);
   const PixelFilter filter;
   const TileTask task{stage, camera, lens, options, filter, sums};
   const uint32_t across = (options.width + kTile - 1) / kTile;

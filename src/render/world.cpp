@@ -39,8 +39,13 @@ bool usable(const Vec3& p) {
   return std::abs(p.x) < kFarthest && std::abs(p.y) < kFarthest && std::abs(p.z) < kFarthest;
 }
 
-/// Which prototypes are placed instead of merged.
-std::vector<bool> choosePlaced(const Scene& scene, const std::vector<MeshTriangles>& meshes) {
+/// Which prototypes are placed instead of merged, and what is merged of all roots.
+struct Plan {
+  std::vector<bool> placed;
+  double triangles = 0, positions = 0;
+};
+
+Plan planOf(const Scene& scene, const std::vector<MeshTriangles>& meshes) {
   const size_t n = scene.prototypes.size();
   std::vector<double> uses(n, 0), whole(n, 0), inlined(n, 0);
   for (const Root& root : scene.roots) uses[root.instance.prototype] += 1;
@@ -51,24 +56,36 @@ std::vector<bool> choosePlaced(const Scene& scene, const std::vector<MeshTriangl
       uses[scene.instances[prototype.firstInstance + i].prototype] += uses[p];
     }
   }
-  std::vector<bool> placed(n, false);
+  Plan plan;
+  plan.placed.resize(n);
+  struct Merged {
+    double triangles = 0, positions = 0;
+  };
+  std::vector<Merged> merged(n);
   for (size_t p = 0; p < n; ++p) {
     const Prototype& prototype = scene.prototypes[p];
     work(1 + prototype.leafCount + prototype.instanceCount);
-    double own = 0;
     for (uint32_t i = 0; i < prototype.leafCount; ++i) {
-      own += static_cast<double>(meshes[scene.leaves[prototype.firstLeaf + i].mesh].corners.size());
+      const uint32_t mesh = scene.leaves[prototype.firstLeaf + i].mesh;
+      merged[p].triangles += static_cast<double>(meshes[mesh].corners.size());
+      merged[p].positions += static_cast<double>(scene.meshes[mesh]->positions.size());
     }
-    whole[p] = own * kTriangleCost;
-    inlined[p] = own * kTriangleCost;
+    whole[p] = inlined[p] = merged[p].triangles * kTriangleCost;
     for (uint32_t i = 0; i < prototype.instanceCount; ++i) {
       const uint32_t child = scene.instances[prototype.firstInstance + i].prototype;
       whole[p] += whole[child];
-      inlined[p] += placed[child] ? kPlacementCost : inlined[child];
+      inlined[p] += plan.placed[child] ? kPlacementCost : inlined[child];
+      merged[p].triangles += merged[child].triangles;
+      merged[p].positions += merged[child].positions;
     }
-    placed[p] = uses[p] > 1 && whole[p] + kPlacementCost * uses[p] < inlined[p] * uses[p];
+    plan.placed[p] = uses[p] > 1 && whole[p] + kPlacementCost * uses[p] < inlined[p] * uses[p];
+    if (plan.placed[p]) merged[p] = {};
   }
-  return placed;
+  for (const Root& root : scene.roots) {
+    plan.triangles += merged[root.instance.prototype].triangles;
+    plan.positions += merged[root.instance.prototype].positions;
+  }
+  return plan;
 }
 
 /// Materials as shapes of a certain matter have them, made when they are met.
@@ -114,7 +131,7 @@ class Builder {
       work(used[m] ? 1 + scene.meshes[m]->corners.size() : 1);
       meshes_.push_back(used[m] ? triangulated(*scene.meshes[m]) : MeshTriangles{});
     }
-    placed_ = choosePlaced(scene, meshes_);
+    plan_ = planOf(scene, meshes_);
     partOf_.assign(scene.prototypes.size(), kNone);
   }
 
@@ -125,7 +142,7 @@ class Builder {
   Builder& operator=(const Builder&) = delete;
 
   void build() {
-    world_.parts.emplace_back();
+    makeRoom(world_.parts.emplace_back().solid);
     findOrigin();
     const Frame centred = Frame::moved(-world_.origin);
     for (const Root& root : scene_.roots) {
@@ -136,6 +153,13 @@ class Builder {
   }
 
  private:
+  /// Most of what is merged is solid. A list that grows is copied again and again.
+  void makeRoom(TriangleSet& set) const {
+    constexpr double kMost = 1 << 24;
+    set.triangles.reserve(static_cast<size_t>(std::min(plan_.triangles, kMost)));
+    set.positions.reserve(static_cast<size_t>(std::min(plan_.positions, kMost)));
+  }
+
   void findOrigin() {
     bool found = false;
     for (const Root& root : scene_.roots) {
@@ -181,7 +205,7 @@ class Builder {
   void open(const Instance& instance, const Frame& outer, uint32_t part) {
     const Frame at = outer * instance.frame;
     const Prototype& prototype = scene_.prototypes[instance.prototype];
-    if (part != 0 || !placed_[instance.prototype]) {
+    if (part != 0 || !plan_.placed[instance.prototype]) {
       levels_.push_back({&prototype, at, part});
       addLeaves(levels_.back());
       return;
@@ -392,24 +416,29 @@ class Builder {
   /// the lowest point: then the scene has terrain, and its lowest point counts.
   double foot() {
     if (feet_.empty()) return world_.bounds.min.y;
-    std::sort(feet_.begin(), feet_.end(), [](const auto& a, const auto& b) {
-      work();
-      return a < b;
-    });
     double total = 0, sum = 0;
     for (const auto& [y, area] : feet_) total += area;
-    for (const auto& [y, area] : feet_) {
+    // Few lie so low: from a heap they come in order without the others.
+    const auto isHigher = [](const auto& a, const auto& b) {
+      work();
+      return b < a;
+    };
+    std::make_heap(feet_.begin(), feet_.end(), isHigher);
+    const double lowest = feet_[0].first;
+    for (auto end = feet_.end(); end != feet_.begin(); --end) {
+      std::pop_heap(feet_.begin(), end, isHigher);
+      const auto& [y, area] = *(end - 1);
       sum += area;
-      if (sum >= 0.01 * total) return y - feet_[0].first < 1.5 ? y : feet_[0].first;
+      if (sum >= 0.01 * total) return y - lowest < 1.5 ? y : lowest;
     }
-    return feet_[0].first;
+    return lowest;
   }
 
   const Scene& scene_;
   World& world_;
   SpecialMaterials special_;
   std::vector<MeshTriangles> meshes_;
-  std::vector<bool> placed_;
+  Plan plan_;
   std::vector<uint32_t> partOf_;
   std::vector<Level> levels_;
   std::vector<Vec3> points_;

@@ -57,6 +57,8 @@ struct Cells {
   double width = 1, height = 1;
   double jitter = 1;
   uint64_t seed = 0;
+
+  bool operator==(const Cells&) const = default;
 };
 Cell cellAt(double u, double v, const Cells& c);
 
