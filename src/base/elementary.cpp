@@ -156,6 +156,30 @@ double plainAlternating(double square, size_t first) {
   }
 }
 
+/// A value that is off by `error` at most.
+struct Bounded {
+  Wide value;
+  double error = 0;
+
+  bool isRounded() const { return gable::isRounded(value, error); }
+};
+
+/// Of radians in [-pi/4, pi/4].
+Bounded sinBounded(double radians) {
+  const Wide square = twoProduct(radians, radians);
+  const double rest = square.hi * square.hi * plainAlternating(square.hi, 5);
+  const Wide less = (-(kInverseFactorials[3] * square) + rest) * radians;
+  const Wide sum = fastTwoSum(radians, less.hi);
+  return {fastTwoSum(sum.hi, sum.lo + less.lo), std::fabs(rest * radians) * kPlainError};
+}
+
+Bounded cosBounded(double radians) {
+  const Wide square = twoProduct(radians, radians);
+  const double rest = square.hi * square.hi * square.hi * plainAlternating(square.hi, 6);
+  const Wide terms = kInverseFactorials[4] * (square * square) + -rest;
+  return {Wide{-square.hi / 2, -square.lo / 2} + terms + 1.0, rest * kPlainError + 0x1p-90};
+}
+
 /// e^x as a number times 2^power; |x| below 800.
 Wide expWide(const Wide& x, int& power) {
   const double turns = std::floor(x.hi / kLn2High + 0.5);
@@ -210,26 +234,41 @@ Wide logWide(double v) {
   return (kLn2Low * power + log) + power * kLn2High;
 }
 
-/// The arc whose tangent is y / x, for 0 <= y <= x, x above 0.
-Wide atanWide(const Wide& y, const Wide& x) {
-  const double t = y.hi / x.hi;
-  // The cube of so small an arc is of no account.
-  if (t < 0x1p-35) return y / x;
+/// About the arc whose tangent is t, for t in [0, 1].
+double arcEstimate(double t) {
   const bool upper = t > 0.4142135623730950;
   const double u = upper ? (t - 1) / (t + 1) : t;
   double series = 0;
   for (int n = 33; n >= 1; n -= 2) series = 1.0 / n - u * u * series;
-  const double estimate = u * series + (upper ? kHalfPi.hi / 2 : 0);
-  const Wide s = sinWide(estimate), c = cosWide(estimate);
-  const Wide rest = (y * c + -(x * s)) / (x * c + y * s);
-  return rest + estimate;
+  return u * series + (upper ? kHalfPi.hi / 2 : 0);
+}
+
+/// The arc whose tangent is y / x, for 0 <= y <= x, x above 0; `full` for all digits. What sine and
+/// cosine are off by counts at most as much in the arc.
+Bounded atanWide(const Wide& y, const Wide& x, bool full) {
+  const double t = y.hi / x.hi;
+  // The cube of so small an arc is of no account.
+  if (t < 0x1p-35) return {y / x};
+  const double estimate = arcEstimate(t);
+  const Bounded s = full ? Bounded{sinWide(estimate)} : sinBounded(estimate);
+  const Bounded c = full ? Bounded{cosWide(estimate)} : cosBounded(estimate);
+  const Wide rest = (y * c.value + -(x * s.value)) / (x * c.value + y * s.value);
+  return {rest + estimate, s.error + c.error};
 }
 
 /// The arc of a point in the upper half plane, not the origin; y not below 0.
-Wide arcWide(const Wide& y, const Wide& x) {
+Bounded arcWide(const Wide& y, const Wide& x, bool full) {
   const Wide across{std::fabs(x.hi), x.hi < 0 ? -x.lo : x.lo};
-  const Wide first = across.hi >= y.hi ? atanWide(y, across) : kHalfPi + -atanWide(across, y);
-  return x.hi < 0 ? kPi + -first : first;
+  const bool isFlat = across.hi >= y.hi;
+  Bounded arc = isFlat ? atanWide(y, across, full) : atanWide(across, y, full);
+  if (!isFlat) arc.value = kHalfPi + -arc.value;
+  if (x.hi < 0) arc.value = kPi + -arc.value;
+  return arc;
+}
+
+double arcOf(const Wide& y, const Wide& x) {
+  const Bounded quick = arcWide(y, x, false);
+  return quick.isRounded() ? quick.value.hi : arcWide(y, x, true).value.hi;
 }
 
 bool isOdd(double v) { return std::fabs(std::fmod(v, 2)) == 1; }
@@ -250,22 +289,13 @@ double powOfInfinity(double base, double exponent) {
 double sinSmall(double radians) {
   // Below, the cube is less than half a unit in the last place; zero keeps its sign.
   if (std::fabs(radians) < 0x1p-27) return radians;
-  const Wide square = twoProduct(radians, radians);
-  const double rest = square.hi * square.hi * plainAlternating(square.hi, 5);
-  const Wide less = (-(kInverseFactorials[3] * square) + rest) * radians;
-  const Wide sum = fastTwoSum(radians, less.hi);
-  const Wide whole = fastTwoSum(sum.hi, sum.lo + less.lo);
-  if (isRounded(whole, std::fabs(rest * radians) * kPlainError)) return whole.hi;
-  return sinWide(radians).hi;
+  const Bounded quick = sinBounded(radians);
+  return quick.isRounded() ? quick.value.hi : sinWide(radians).hi;
 }
 
 double cosSmall(double radians) {
-  const Wide square = twoProduct(radians, radians);
-  const double rest = square.hi * square.hi * square.hi * plainAlternating(square.hi, 6);
-  const Wide terms = kInverseFactorials[4] * (square * square) + -rest;
-  const Wide whole = Wide{-square.hi / 2, -square.lo / 2} + terms + 1.0;
-  if (isRounded(whole, rest * kPlainError + 0x1p-90)) return whole.hi;
-  return cosWide(radians).hi;
+  const Bounded quick = cosBounded(radians);
+  return quick.isRounded() ? quick.value.hi : cosWide(radians).hi;
 }
 
 double atan2Of(double y, double x) {
@@ -289,7 +319,7 @@ double atan2Of(double y, double x) {
     std::frexp(across > up ? across : up, &power);
     across = std::ldexp(across, -power);
     up = std::ldexp(up, -power);
-    arc = arcWide({up, 0}, {x < 0 ? -across : across, 0}).hi;
+    arc = arcOf({up, 0}, {x < 0 ? -across : across, 0});
   }
   return std::copysign(arc, y);
 }
@@ -299,14 +329,14 @@ double asinOf(double v) {
   if (!(size <= 1)) return kNan;
   if (size < 0x1p-27) return v;
   const Wide rest = squareRoot(twoSum(1, -size) * twoSum(1, size));
-  return std::copysign(arcWide({size, 0}, rest).hi, v);
+  return std::copysign(arcOf({size, 0}, rest), v);
 }
 
 double acosOf(double v) {
   const double size = std::fabs(v);
   if (!(size <= 1)) return kNan;
   const Wide rest = squareRoot(twoSum(1, -size) * twoSum(1, size));
-  return arcWide(rest, {v, 0}).hi;
+  return arcOf(rest, {v, 0});
 }
 
 double expOf(double v) {
