@@ -95,7 +95,7 @@ void Parts::trianglesNear(size_t part, const Box3& box, std::vector<Triangle>& o
     Triangle placed{{place(t[0]), place(t[mirrored ? 2 : 1]), place(t[mirrored ? 1 : 2])}};
     const uint32_t material = materialIndexOf(scene_, *p.leaf, form.slots[k]);
     if (material < materials_.size()) placed.material = materials_[material];
-    if (solid::boxesMeet(boundsOf(placed), box)) out.push_back(placed);
+    if (boundsOf(placed).meets(box)) out.push_back(placed);
   };
   if (!form.tree) {
     for (uint32_t k = 0; k < form.triangles.size(); ++k) add(k);

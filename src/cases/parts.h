@@ -90,7 +90,7 @@ bool forEachNear(const std::vector<Triangle>& as, const std::vector<Triangle>& b
     for (const Triangle& a : as) {
       const Box3 box = Parts::grown(boundsOf(a), gap);
       for (const Triangle& b : bs) {
-        if (solid::boxesMeet(box, boundsOf(b)) && visit(a, b)) return true;
+        if (box.meets(boundsOf(b)) && visit(a, b)) return true;
       }
     }
     return false;

@@ -106,7 +106,7 @@ double convexDepth(const Body& a, const Body& b) {
 // ray leans, so that it meets no edge.
 bool isInside(const Parts& parts, uint32_t part, const Vec3& p, std::vector<Triangle>& near) {
   const Box3& box = parts[part].box;
-  if (!solid::boxesMeet(box, {p, p})) return false;
+  if (!box.meets({p, p})) return false;
   const double up = box.max.y - p.y + 1;
   const Vec3 end = p + Vec3{0.00137 * up, up, 0.00271 * up};
   near.clear();

@@ -60,10 +60,7 @@ class TerrainSurface {
         for (const uint32_t* i = lists_.begin(cell); i != lists_.end(cell); ++i) {
           work();
           const Box2 own = boxOf(*i);
-          if (own.min.x > box.max.x || own.max.x < box.min.x || own.min.y > box.max.y ||
-              own.max.y < box.min.y) {
-            continue;
-          }
+          if (!own.meets(box)) continue;
           // Where the boxes begin to meet, so that no facet comes twice.
           const GridPoint first = gridPoint(own.min);
           if (std::max(firstRow, grid_.row(first.y)) != r ||

@@ -213,9 +213,7 @@ void tellBoxBesideBuildings(const MapFeatures& map, const std::string& path, Dia
       for (const Vec2 p : r) own.include(p);
     }
     if (own.empty()) continue;
-    const bool meets = own.min.x <= map.area.max.x && own.max.x >= map.area.min.x &&
-                       own.min.y <= map.area.max.y && own.max.y >= map.area.min.y;
-    if (meets) return;
+    if (own.meets(map.area)) return;
     all.include(own.min);
     all.include(own.max);
   }

@@ -55,10 +55,6 @@ Plan planOf(const ShapeFootprint& f) {
   return p;
 }
 
-bool apart(const Box2& a, const Box2& b) {
-  return a.max.x < b.min.x || b.max.x < a.min.x || a.max.y < b.min.y || b.max.y < a.min.y;
-}
-
 }  // namespace
 
 namespace {
@@ -73,7 +69,7 @@ bool cutOut(std::vector<Plan>& plans, size_t outer) {
     work();
     const Plan& i = plans[inner];
     if (inner == outer || !i.flat || i.size <= 0 || i.size >= o.size) continue;
-    if (std::fabs(i.height - o.height) > kSamePlane || apart(i.box, o.box)) continue;
+    if (std::fabs(i.height - o.height) > kSamePlane || !i.box.meets(o.box)) continue;
     if (area(intersect(whole, i.region)) < kOverlapShare * i.size) continue;
     o.region = subtract(o.region, i.region);
     cut = true;

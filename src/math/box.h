@@ -24,6 +24,14 @@ struct Box2 {
   bool contains(Vec2 p) const {
     return p.x >= min.x && p.x <= max.x && p.y >= min.y && p.y <= max.y;
   }
+  /// Boxes that touch meet; an empty one meets none.
+  bool meets(const Box2& b) const {
+    return min.x <= b.max.x && b.min.x <= max.x && min.y <= b.max.y && b.min.y <= max.y;
+  }
+  /// Whether they meet in more than their borders.
+  bool overlaps(const Box2& b) const {
+    return min.x < b.max.x && b.min.x < max.x && min.y < b.max.y && b.min.y < max.y;
+  }
   Vec2 size() const { return empty() ? Vec2{} : max - min; }
   Vec2 center() const { return (min + max) * 0.5; }
 };
@@ -44,6 +52,11 @@ struct Box3 {
     include(b.max);
   }
   bool empty() const { return min.x > max.x || min.y > max.y || min.z > max.z; }
+  /// Boxes that touch meet, or are no farther apart than `slack` along any axis.
+  bool meets(const Box3& b, double slack = 0) const {
+    return min.x <= b.max.x + slack && b.min.x <= max.x + slack && min.y <= b.max.y + slack &&
+           b.min.y <= max.y + slack && min.z <= b.max.z + slack && b.min.z <= max.z + slack;
+  }
   Vec3 size() const { return empty() ? Vec3{} : max - min; }
   Vec3 center() const { return (min + max) * 0.5; }
 };

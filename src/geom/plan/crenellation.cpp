@@ -128,10 +128,6 @@ class Course {
   std::vector<Stretch> gaps_;
 };
 
-bool apart(const Box2& a, const Box2& b) {
-  return a.max.x < b.min.x || b.max.x < a.min.x || a.max.y < b.min.y || b.max.y < a.min.y;
-}
-
 /// Collects merlons, each within the band and off those before it.
 class Merlons {
  public:
@@ -158,7 +154,7 @@ class Merlons {
       const Box2 box = bounds(p);
       work(all_.size());
       for (size_t i = 0; i < all_.size(); ++i) {
-        if (!apart(box, boxes_[i])) before.push_back(all_[i]);
+        if (box.meets(boxes_[i])) before.push_back(all_[i]);
       }
     }
     if (!before.empty()) r = subtract(r, before);

@@ -315,10 +315,7 @@ size_t bestNeighbour(const std::vector<Parcel>& lots, size_t i, Polygon& joined)
   for (size_t k = 0; k < lots.size(); ++k) {
     work();
     const Box2 box = bounds(lots[k].polygon);
-    if (k == i || box.min.x > near.max.x || box.max.x < near.min.x || box.min.y > near.max.y ||
-        box.max.y < near.min.y) {
-      continue;
-    }
+    if (k == i || !box.meets(near)) continue;
     Region both = unite({lots[i].polygon}, {lots[k].polygon});
     if (both.size() != 1) continue;
     const double border = around(lots[i].polygon) + around(lots[k].polygon) - around(both[0]);

@@ -127,7 +127,7 @@ class Ground {
     Region taken;
     for (size_t k : near(box)) {
       work();
-      if (!apart(boxes_[k], box)) taken.insert(taken.end(), given_[k].begin(), given_[k].end());
+      if (boxes_[k].meets(box)) taken.insert(taken.end(), given_[k].begin(), given_[k].end());
     }
     if (!taken.empty()) mine = subtract(mine, taken);
     if (mine.empty()) return {};
@@ -141,9 +141,6 @@ class Ground {
   }
 
  private:
-  static bool apart(const Box2& a, const Box2& b) {
-    return a.min.x > b.max.x || a.max.x < b.min.x || a.min.y > b.max.y || a.max.y < b.min.y;
-  }
   // A coarse grid over the area.
   static constexpr int kCells = 64;
   int cell(double v, double low, double high) const {

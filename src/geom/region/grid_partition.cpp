@@ -420,10 +420,6 @@ std::vector<Junction> junctionRings(const Family& fx, const Family& fy, const Gr
   return out;
 }
 
-bool boxesMeet(const Box2& a, const Box2& b) {
-  return a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y;
-}
-
 uint32_t plainChoice(const std::vector<Junction>& junctions, uint32_t ix, uint32_t iy) {
   for (const Junction& j : junctions) {
     if (j.ring.empty() && j.ix == ix && j.iy == iy) return j.choice;
@@ -445,7 +441,7 @@ void placeJunctions(const Polygon& whole, const std::vector<Junction>& junctions
     Region holes;
     const Box2 box = bounds(p.polygon);
     for (const Ring& r : rings) {
-      if (boxesMeet(box, bounds(r))) holes.push_back({r, {}});
+      if (box.overlaps(bounds(r))) holes.push_back({r, {}});
     }
     // What a figure leaves of its crossing is path.
     if (p.kind == PieceKind::Junction && (everywhere || !holes.empty())) p.kind = PieceKind::Path;

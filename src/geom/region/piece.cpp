@@ -24,10 +24,6 @@ Box2 grown(Box2 b, double by) {
   return b;
 }
 
-bool overlap(const Box2& a, const Box2& b) {
-  return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y;
-}
-
 // The edges of a polygon that reach into a box.
 std::vector<Segment> edgesWithin(const Polygon& p, const Box2& box) {
   std::vector<Segment> out;
@@ -250,7 +246,7 @@ size_t absorbAmong(std::vector<RegionPiece>& pieces, const std::vector<Box2>& bo
   std::vector<Neighbour> found;
   work(pieces.size());
   for (size_t k = 0; k < pieces.size(); ++k) {
-    if (!overlap(box, boxes[k]) || &pieces[k] == &sliver) continue;
+    if (!box.meets(boxes[k]) || &pieces[k] == &sliver) continue;
     const double border = commonBorder(sliver.polygon, box, pieces[k].polygon);
     if (border > kTrace) found.push_back({k, border, pieces[k].kind == PieceKind::Path});
   }

@@ -161,10 +161,6 @@ void addPrism(MeshBuilder& b, const Ring& r, double least, const auto& heightAt)
   b.addPolygon(foot);
 }
 
-bool overlap(const Box2& a, const Box2& b) {
-  return a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y;
-}
-
 // Each part of each span by itself: what the region and the parts before leave of it.
 Mesh prisms(const Polygon& region, const Polyline& line, const std::vector<Polyline>& sides,
             const Profile& profile, double width, double height) {
@@ -183,7 +179,7 @@ Mesh prisms(const Polygon& region, const Polyline& line, const std::vector<Polyl
     for (const Polygon& part : whole) {
       for (const Polygon& p : before) {
         work();
-        if (overlap(bounds(p), bounds(part))) near.push_back(p);
+        if (bounds(p).overlaps(bounds(part))) near.push_back(p);
       }
     }
     const Region free = subtract(intersect(whole, {region}), near);

@@ -251,10 +251,8 @@ std::vector<RayStrips::Section> RayStrips::sections(double width, const Region& 
       work(before);
       for (size_t k = 0; k < before; ++k) {
         const Section& s = out[k];
-        const bool meets = s.box.min.x <= box.max.x && box.min.x <= s.box.max.x &&
-                           s.box.min.y <= box.max.y && box.min.y <= s.box.max.y;
         const bool beside = !link && !s.link && s.centre == r.from;
-        if (meets && !beside) taken.push_back(s.polygon);
+        if (s.box.meets(box) && !beside) taken.push_back(s.polygon);
       }
       Region rest{std::move(p)};
       if (!taken.empty()) rest = subtract(rest, taken);

@@ -207,10 +207,6 @@ bool allClear(const std::vector<Ring>& rings, double distance) {
   return clear;
 }
 
-bool boxesMeet(const Box2& a, const Box2& b) {
-  return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y;
-}
-
 // Calls visit(i, j), i > j, for the pairs of polygons whose boxes meet, until one returns false.
 template <class Visit>
 bool forMeetingPairs(const std::vector<Box2>& boxes, Visit&& visit) {
@@ -223,7 +219,7 @@ bool forMeetingPairs(const std::vector<Box2>& boxes, Visit&& visit) {
     for (size_t k = i + 1; k < order.size(); ++k) {
       work();
       if (boxes[order[k]].min.x > boxes[order[i]].max.x) break;
-      if (!boxesMeet(boxes[order[i]], boxes[order[k]])) continue;
+      if (!boxes[order[i]].meets(boxes[order[k]])) continue;
       if (!visit(std::max(order[i], order[k]), std::min(order[i], order[k]))) return false;
     }
   }
@@ -291,7 +287,7 @@ bool nestedProperly(const std::vector<Ring>& rings, const std::vector<Box2>& box
     if (!liesOn(rings[i], rings[first], Where::Inside, contacts.touch(i, first))) return false;
     for (uint32_t j = first + 1; j < i; ++j) {
       work();
-      if (!boxesMeet(boxes[i], boxes[j])) continue;
+      if (!boxes[i].meets(boxes[j])) continue;
       if (!liesOn(rings[i], rings[j], Where::Outside, contacts.touch(i, j))) return false;
       if (!liesOn(rings[j], rings[i], Where::Outside, contacts.touch(i, j))) return false;
     }

@@ -218,7 +218,7 @@ std::vector<RegionPiece> bendBorders(const Polygon& region, std::span<const Disc
     const EdgeSource sources[] = {sourceOf(region), source};
     Region others;
     for (const Polygon& t : taken) {
-      if (boxesMeet(bounds(t), bounds(c.polygon))) others.push_back(t);
+      if (bounds(t).meets(bounds(c.polygon))) others.push_back(t);
     }
     for (Polygon& p :
          subtract(intersect(repaired(source.rings, FillRule::NonZero), {region}), others)) {

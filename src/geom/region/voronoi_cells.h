@@ -17,10 +17,6 @@ constexpr uint32_t kSite = 0x80000000;
 
 inline bool isBorder(const EdgeOrigin& e) { return e.source >= kSite && e.source != kNoEdge; }
 
-inline bool boxesMeet(const Box2& a, const Box2& b) {
-  return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y;
-}
-
 /// What of the region is nearest to each site: `ix` is the site. A cell falls into several pieces
 /// where the region is not convex. The sites lie in the region, apart from each other.
 std::vector<RegionPiece> voronoiCells(const Polygon& region, std::span<const Disc> sites);

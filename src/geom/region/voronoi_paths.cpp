@@ -212,7 +212,7 @@ class PathNetwork {
       Region here;
       const Box2 box = bounds(n.polygon);
       for (size_t i = 0; i < meetings.size(); ++i) {
-        if (boxesMeet(boxes[i], box)) here.push_back({meetings[i].hull, {}});
+        if (boxes[i].meets(box)) here.push_back({meetings[i].hull, {}});
       }
       if (here.empty()) {
         paths.push_back(std::move(n));

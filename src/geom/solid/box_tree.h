@@ -16,11 +16,6 @@
 
 namespace gable::solid {
 
-inline bool boxesMeet(const Box3& a, const Box3& b, double slack = 0) {
-  return a.min.x <= b.max.x + slack && b.min.x <= a.max.x + slack && a.min.y <= b.max.y + slack &&
-         b.min.y <= a.max.y + slack && a.min.z <= b.max.z + slack && b.min.z <= a.max.z + slack;
-}
-
 class BoxTree {
  public:
   explicit BoxTree(std::span<const Box3> boxes) : boxes_(boxes.begin(), boxes.end()) {
@@ -38,10 +33,10 @@ class BoxTree {
     while (depth > 0) {
       work();
       const Node& node = nodes_[stack[--depth]];
-      if (!boxesMeet(node.box, box)) continue;
+      if (!node.box.meets(box)) continue;
       if (node.right == 0) {
         for (uint32_t k = node.first; k < node.last; ++k) {
-          if (boxesMeet(boxes_[order_[k]], box)) visit(order_[k]);
+          if (boxes_[order_[k]].meets(box)) visit(order_[k]);
         }
       } else {
         stack[depth++] = node.right;

@@ -194,7 +194,7 @@ class Contacts {
       Box3 box;
       box.include(pool_[u]);
       box.include(pool_[v]);
-      if (boxesMeet(box, to.box, pool_.tolerance()) && !to.hasEdge(u, v)) edges.push_back({u, v});
+      if (box.meets(to.box, pool_.tolerance()) && !to.hasEdge(u, v)) edges.push_back({u, v});
     };
     forEdges(from, put);
     for (const Edge& e : from.inner) put(e[0], e[1]);

@@ -62,10 +62,6 @@ Box2 boxOf(const Region& region) {
   return box;
 }
 
-bool overlap(const Box2& a, const Box2& b) {
-  return a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y;
-}
-
 // ---- Planes and layers --------------------------------------------------------------------------
 
 struct FlatFace {
@@ -160,7 +156,7 @@ std::vector<Layer> layersOf(std::span<const TopFace> faces, const Vec3& origin, 
 
 // The least and the largest height of a over b where both are; nothing where they do not meet.
 std::optional<std::pair<double, double>> heightOver(const Layer& a, const Layer& b) {
-  if (!overlap(a.box, b.box)) return std::nullopt;
+  if (!a.box.overlaps(b.box)) return std::nullopt;
   const Region both = intersect(a.region, b.region);
   if (area(both) < kThin * kThin) return std::nullopt;
   double least = 1e300, most = -1e300;

@@ -136,9 +136,7 @@ class Reader {
         for (const Vec2 p : r) all.include(p);
       }
     }
-    const bool meets = all.min.x <= box.max.x && all.max.x >= box.min.x && all.min.y <= box.max.y &&
-                       all.max.y >= box.min.y;
-    if (meets || all.empty()) return std::nullopt;
+    if (all.meets(box) || all.empty()) return std::nullopt;
     const auto text = [](double v) { return shortestText(std::round(v * 1e6) / 1e6); };
     return Error{"map-box", "nothing of '" + path + "' lies in the box",
                  "the map goes from " + text(all.min.x) + "," + text(all.min.y) + " to " +
