@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <string>
 
 #include "base/bytes.h"
 #include "base/files.h"
@@ -22,10 +24,9 @@ constexpr int kFormat = 3;
 constexpr const char* kDescription = "dataset.json";
 constexpr const char* kLocks = "locks";
 
-std::string numbered(int digits, uint64_t number) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%0*llu", digits, static_cast<unsigned long long>(number));
-  return text;
+std::string numbered(size_t digits, uint64_t number) {
+  const std::string text = std::to_string(number);
+  return std::string(digits - std::min(digits, text.size()), '0') + text;
 }
 
 std::string checksumText(uint64_t checksum) {
@@ -200,7 +201,7 @@ DatasetFolder::DatasetFolder(const std::string& path, const DatasetSettings& set
     : path_(path.ends_with('/') ? path : path + '/'), settings_(settings) {}
 
 std::string DatasetFolder::item(uint64_t seed, uint32_t camera) const {
-  int digits = 2;
+  size_t digits = 2;
   for (uint32_t most = settings_.cameras - 1; most >= 100; most /= 10) ++digits;
   return numbered(6, seed) + "/" + numbered(digits, camera);
 }
