@@ -21,6 +21,7 @@
 #include "engine/city_rules.h"
 #include "engine/footprint.h"
 #include "engine/missing_files.h"
+#include "engine/told_once.h"
 #include "engine/outside_values.h"
 #include "engine/unused_properties.h"
 #include "shape/edge_attributes.h"
@@ -468,7 +469,7 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
     std::vector<AttributeValue>& known = impl->shapeAttributes.emplace_back(f.attributes);
     if (!f.id.empty()) known.push_back({"id", {{PlainValue::Kind::Text, 0, f.id}}, 0, 0});
   }
-  MissingFiles told;
+  ToldOnce told;
   told.add(r.diagnostics);
   const DiagnosticList made = told.without(
       listOf(inWordsOf(r.dialect, impl->result.diagnostics, builtinCatalogue()), r.sources));

@@ -9,7 +9,7 @@
 
 #include "engine/guard.h"
 #include "engine/impl.h"
-#include "engine/missing_files.h"
+#include "engine/told_once.h"
 #include "gable/names.h"
 
 namespace gable {
@@ -44,9 +44,8 @@ std::string quotedName(const std::string& message) {
   return to == std::string::npos ? std::string() : message.substr(from + 1, to - from - 1);
 }
 
-constexpr std::string_view kAboutMissingFiles[] = {"missing-file", "missing-texture",
-                                                   "missing-asset", "shape-texture-missing",
-                                                   "unknown-material"};
+constexpr std::string_view kAboutToldOnce[] = {"missing-file", "missing-texture", "missing-asset",
+                                               "shape-texture-missing", "unknown-material"};
 
 // The file that such a message is about; of a material its name, which stands last.
 std::string missingName(const Diagnostic& d) {
@@ -57,8 +56,17 @@ std::string missingName(const Diagnostic& d) {
 }
 
 bool isAboutMissingFile(const Diagnostic& d) {
-  return std::find(std::begin(kAboutMissingFiles), std::end(kAboutMissingFiles), d.code) !=
-         std::end(kAboutMissingFiles);
+  return std::find(std::begin(kAboutToldOnce), std::end(kAboutToldOnce), d.code) !=
+         std::end(kAboutToldOnce);
+}
+
+constexpr std::string_view kCapped = "tint-capped";
+
+bool isWithin(const TextRange& part, const TextRange& whole) {
+  const auto place = [](uint32_t line, uint32_t column) { return uint64_t{line} << 32 | column; };
+  return part.file == whole.file &&
+         place(part.line, part.column) >= place(whole.line, whole.column) &&
+         place(part.endLine, part.endColumn) <= place(whole.endLine, whole.endColumn);
 }
 
 // A name that nothing is known of, and of which nothing better can be said than that.
@@ -188,16 +196,24 @@ Diagnostic Task::diagnosticOfException() const {
   }
 }
 
-void MissingFiles::add(const DiagnosticList& told) {
+void ToldOnce::add(const DiagnosticList& told) {
   for (const Diagnostic& d : told) {
     if (isAboutMissingFile(d)) paths_.insert(missingName(d));
+    if (d.range && (d.code == kCapped || d.code == "bad-argument")) colours_.push_back(*d.range);
   }
 }
 
-bool MissingFiles::has(const Diagnostic& made) const { return paths_.count(missingName(made)) > 0; }
+bool ToldOnce::has(const Diagnostic& made) const {
+  if (made.code != kCapped) return paths_.count(missingName(made)) > 0;
+  return made.range && std::any_of(colours_.begin(), colours_.end(), [&](const TextRange& told) {
+           return isWithin(told, *made.range);
+         });
+}
 
-DiagnosticList MissingFiles::without(DiagnosticList made) const {
-  std::erase_if(made, [&](const Diagnostic& d) { return isAboutMissingFile(d) && has(d); });
+DiagnosticList ToldOnce::without(DiagnosticList made) const {
+  std::erase_if(made, [&](const Diagnostic& d) {
+    return (d.code == kCapped || isAboutMissingFile(d)) && has(d);
+  });
   return made;
 }
 

@@ -13,8 +13,8 @@
 #include "engine/game_scene.h"
 #include "engine/guard.h"
 #include "engine/impl.h"
-#include "engine/missing_files.h"
 #include "engine/picture.h"
+#include "engine/told_once.h"
 #include "gable/names.h"
 #include "gable/writing.h"
 #include "io/exporters/atlas.h"
@@ -189,7 +189,7 @@ WriteResult written(const Model::Impl& impl, const std::string& path,
         "parts go by their names and not by @Label and tags: the derivation that finds those came "
         "to another end; set cityPart instead");
   }
-  MissingFiles told;
+  ToldOnce told;
   if (impl.rules) told.add(impl.rules->diagnostics);
   told.add(impl.diagnostics);
   for (const std::string& w : report->warnings) {

@@ -83,8 +83,10 @@ class ProjectLoader final : public lang::FileLoader {
 
   std::string materialHint(const std::string& name) override { return gable::materialHint(name); }
 
-  std::string colorAbove(const std::string& material, const std::string& tint) override {
-    return gable::colorAbove(material, tint);
+  Status takesTint(const std::string& material, const std::string& tint) override {
+    Vec3 rgb;
+    double opacity = 1;
+    return parseColor(tint, rgb, opacity) ? gable::takesTint(material, rgb) : Status();
   }
 
   std::vector<AssetUse> takeAssets() { return std::move(assets_); }

@@ -252,16 +252,18 @@ const LibraryMaterial* libraryMaterial(std::string_view name) {
   return at != std::end(kLibrary) && at->name == name ? &*at : nullptr;
 }
 
-std::string colorAbove(std::string_view name, std::string_view tint) {
+Status takesTint(std::string_view name, const Vec3& tint) {
   constexpr double kSeen = 0.1;
   const LibraryMaterial* const m = libraryMaterial(name);
-  Vec3 rgb;
-  double opacity = 1;
-  if (!m || !parseColor(tint, rgb, opacity)) return {};
-  const auto channel = [&](int shift) { return (m->color >> shift & 255) / 255.0; };
-  const Vec3 own{channel(16), channel(8), channel(0)};
-  const double above = std::max({rgb.x - own.x, rgb.y - own.y, rgb.z - own.z});
-  return above < kSeen ? std::string() : colorText(own);
+  if (!m) return {};
+  const Vec3 own = rgbOf(m->color);
+  if (std::max({tint.x - own.x, tint.y - own.y, tint.z - own.z}) < kSeen) return {};
+  const Vec3 made{std::min(tint.x, own.x), std::min(tint.y, own.y), std::min(tint.z, own.z)};
+  return Status::failure("tint-capped",
+                         "the tint " + colorText(tint) + " is brighter than the material '" +
+                             std::string(name) + "': the colour becomes " + colorText(made),
+                         "take a darker tint, or a material that takes any: 'plaster.clean', "
+                         "'brick.white', 'boards.lap' or 'metal.painted'");
 }
 
 std::string materialHint(std::string_view given) {

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/status.h"
 #include "material/material.h"
 
 namespace gable {
@@ -97,9 +98,9 @@ std::span<const LibraryMaterial> materialLibrary();
 const LibraryMaterial* libraryMaterial(std::string_view name);
 /// "did you mean 'x'?", or where names are listed.
 std::string materialHint(std::string_view name);
-/// The colour of a material, "#rrggbb", where a tint is seen to be brighter than that in a channel:
-/// a picture can be made darker, but no brighter. Else empty, also where one of them is unknown.
-std::string colorAbove(std::string_view name, std::string_view tint);
+/// Fails with the code tint-capped where a tint is seen to be brighter than the material in a
+/// channel: a picture can be made darker, but no brighter. Materials of others take any tint.
+Status takesTint(std::string_view name, const Vec3& tint);
 
 /// The pictures of a library material. Surface: occlusion in red, roughness in green, metalness in
 /// blue.

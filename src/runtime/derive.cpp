@@ -147,7 +147,8 @@ class MessageList {
       const bool aboutFile = d.code == "missing-asset" || d.code == "missing-texture" ||
                              d.code == "missing-file" || d.code == "read-with-loss";
       const uint64_t place = aboutFile ? 0 : uint64_t{d.span.file} << 32 | d.span.begin;
-      if (!told_.insert(hashBytes(d.message, hashBytes(d.code, place))).second) continue;
+      const std::string_view what = isToldOncePerPlace(d.code) ? std::string_view() : d.message;
+      if (!told_.insert(hashBytes(what, hashBytes(d.code, place))).second) continue;
       size_t& count = d.severity == Severity::Error ? errors_ : warnings_;
       if (++count <= kMostDiagnostics) out_.add(d);
     }

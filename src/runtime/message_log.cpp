@@ -12,7 +12,8 @@ bool MessageLog::isNews(const char* code, const Span& at, const std::string& mes
                         uint32_t initialShape) {
   ++warnings_;
   if (count() >= kMostDiagnostics) return false;
-  const uint64_t key = hashBytes(message, hashBytes(code, uint64_t{at.file} << 32 | at.begin));
+  const std::string_view what = isToldOncePerPlace(code) ? std::string_view() : message;
+  const uint64_t key = hashBytes(what, hashBytes(code, uint64_t{at.file} << 32 | at.begin));
   const auto [known, fresh] = told_.try_emplace(key, Told{initialShape, unit_});
   if (fresh) return true;
   Told& last = known->second;

@@ -10,12 +10,19 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 
 #include "base/diagnostic.h"
 
 namespace gable {
+
+/// Whether a message is told once a place in the rules, whatever it says: it names values, which
+/// differ from shape to shape.
+inline bool isToldOncePerPlace(std::string_view code) {
+  return code == "tint-capped" || code == "split-overflow";
+}
 
 class MessageLog {
  public:

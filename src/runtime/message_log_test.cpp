@@ -31,6 +31,18 @@ TEST(MessageLog, TellsARepetitionOnceAUnit) {
   EXPECT_EQ(log.count(), 0u);
 }
 
+TEST(MessageLog, TellsOfColoursOnceAPlace) {
+  MessageLog log;
+  log.beginUnit();
+  const auto tint = [&](const Span& at, const char* message) {
+    log.add(Severity::Warning, "tint-capped", at, message, "", 0, [] { return "Lot"; });
+  };
+  tint(kHere, "#ffffff becomes #a05f49");
+  tint(kHere, "#eeeeee becomes #a05f49");
+  tint(kThere, "#eeeeee becomes #a05f49");
+  EXPECT_EQ(log.count(), 2u);
+}
+
 TEST(MessageLog, TellsOfTheFirstInitialShapeAlone) {
   MessageLog log;
   log.beginUnit();

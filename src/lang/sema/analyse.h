@@ -15,6 +15,7 @@
 
 #include "base/diagnostic.h"
 #include "base/result.h"
+#include "base/status.h"
 #include "lang/sema/resolved.h"
 #include "lang/tree.h"
 #include "program/spec.h"
@@ -44,9 +45,8 @@ class FileLoader {
   virtual std::vector<std::string> assets(const std::string& importer);
   /// What to write in the place of the name of a material that there is not.
   virtual std::string materialHint(const std::string& name);
-  /// The colour of a material, "#rrggbb", where a tint of it is brighter than that and stays
-  /// without effect; else empty.
-  virtual std::string colorAbove(const std::string& material, const std::string& tint);
+  /// Fails where a tint of a material is brighter than that and does not come out.
+  virtual Status takesTint(const std::string& material, const std::string& tint);
   /// The tree of a file that load gave: its notation may be another than this language's.
   virtual TreeRef parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics);
   /// The files of the project that a folder such as "/gable/" names, as rules write them: with that

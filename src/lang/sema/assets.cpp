@@ -118,13 +118,8 @@ void Analysis::checkTint(NodeId material, NodeId tint) {
   if (!loader_ || module().original != module().id) return;
   const NodeId name = writtenText(material), color = writtenText(tint);
   if (name == kNoNode || color == kNoNode || isMute()) return;
-  const std::string own = loader_->colorAbove(std::string(text(name)), std::string(text(color)));
-  if (own.empty()) return;
-  warning("tint-capped", tree().span(color),
-          "the tint is brighter than the material " + quote(text(name)) + ", which is " + own +
-              " at most",
-          "it stays at that colour where it is brighter; for light tints take 'plaster.clean', "
-          "'brick.white', 'boards.lap' or 'metal.painted'");
+  const Status taken = loader_->takesTint(std::string(text(name)), std::string(text(color)));
+  if (!taken) warning(taken.code(), tree().span(tint), taken.message(), taken.hint());
 }
 
 void Analysis::checkFile(NodeId node) {

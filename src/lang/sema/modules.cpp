@@ -184,7 +184,7 @@ std::string FileLoader::materialHint(const std::string&) {
   return "'gable asset material' lists them";
 }
 
-std::string FileLoader::colorAbove(const std::string&, const std::string&) { return {}; }
+Status FileLoader::takesTint(const std::string&, const std::string&) { return {}; }
 
 TreeRef FileLoader::parse(const Sources& sources, uint32_t file, Diagnostics& diagnostics) {
   return std::make_shared<const Tree>(lang::parse(sources, file, diagnostics));

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: The Gable authors
 
+#include <algorithm>
 #include <string>
 
+#include "base/number.h"
 #include "builtins/lists.h"
 #include "builtins/shared/materials.h"
 #include "builtins/shared/text_forms.h"
+#include "material/library.h"
 #include "program/tag_effects.h"
 #include "shape/op_call.h"
 
@@ -22,7 +25,24 @@ struct Color {
   double opacity = kKeepOpacity;
 };
 
+// Numbers that are computed may lie beyond what is taken. A little more is not seen.
+void tellBeyond(OpCall& call, const Color& args) {
+  constexpr double kSeen = 0.1, kLeastOfParts = 10;
+  const double most = std::max({args.red, args.green, args.blue});
+  const double least = std::min({args.red, args.green, args.blue});
+  if (!(most > 1 + kSeen || least < -kSeen)) return;
+  const auto taken = [](double v) { return std::clamp(v, 0.0, 1.0); };
+  call.services().warn("tint-capped",
+                       "the colour (" + shortestText(args.red) + ", " + shortestText(args.green) +
+                           ", " + shortestText(args.blue) + ") lies beyond 0 to 1: it becomes " +
+                           colorText({taken(args.red), taken(args.green), taken(args.blue)}),
+                       most < kLeastOfParts
+                           ? "give red, green and blue from 0 to 1"
+                           : "divide parts of 255 by 255, or give the colour as \"#rrggbb\"");
+}
+
 Status applyRgb(OpCall& call, const Color& args) {
+  tellBeyond(call, args);
   setColor(call.shape(), {args.red, args.green, args.blue}, args.opacity, call.services());
   return {};
 }
@@ -54,6 +74,9 @@ Status applyMaterial(OpCall& call, const LibraryCall& args) {
   Vec3 rgb;
   double opacity = kKeepOpacity;
   const bool tinted = args.tint && parseColor(*args.tint, rgb, opacity);
+  if (const Status taken = tinted ? takesTint(args.name, rgb) : Status(); !taken) {
+    call.services().warn(taken.code(), taken.message(), taken.hint());
+  }
   return setLibraryMaterial(call.shape(), args.name, tinted ? &rgb : nullptr, call.services(),
                             call.file());
 }
