@@ -123,14 +123,20 @@ CityStatistics statisticsOf(const CityPlan& plan, const MapFeatures& map) {
   return out;
 }
 
+// Those without an id are counted.
+std::string calledOf(const std::string& id) {
+  constexpr std::string_view kCounted = "feature/";
+  return "feature " + (id.starts_with(kCounted) ? id.substr(kCounted.size()) : id);
+}
+
 // What was left out: the first of it by name.
 void tellSkipped(const MapSkips& skips, const std::string& path, DiagnosticList& out) {
   constexpr size_t kNamed = 20;
   Diagnostics list;
   for (size_t i = 0; i < std::min(skips.first.size(), kNamed); ++i) {
-    list.warning(
-        "map-row", {},
-        "'" + skips.first[i].place + "' of '" + path + "' is left out: " + skips.first[i].reason);
+    list.warning("map-row", {},
+                 calledOf(skips.first[i].place) + " of '" + path +
+                     "' is left out: " + skips.first[i].reason);
   }
   if (skips.count > kNamed) {
     list.warning("map-rows", {},
@@ -152,7 +158,7 @@ void tellDoubts(const std::vector<MapDoubt>& doubts, const std::string& path, Di
     const MapDoubt& d = doubts[i];
     std::string named;
     for (const auto& [id, value] : d.first) {
-      named += (named.empty() ? "" : ", ") + id + " ('" + value + "')";
+      named += (named.empty() ? "" : ", ") + calledOf(id) + " ('" + value + "')";
     }
     if (d.count > d.first.size()) named += ", ..";
     const std::string where = "' of " + features(d) + " of '" + path + "' ";

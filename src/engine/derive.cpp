@@ -51,6 +51,7 @@ std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, const Rules:
     s.name = f.name;
     s.mesh = f.mesh;
     s.origin = f.origin;
+    s.feature = f.feature;
     s.identity = f.id;
     s.faceTags = f.faceTags;
     s.streetWidths = f.streetWidths;

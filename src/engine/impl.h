@@ -28,6 +28,8 @@ namespace gable {
 struct ShapeFootprint {
   std::string name;
   std::string id;
+  /// See InitialShape.
+  uint64_t feature = 0;
   Mesh mesh;
   Frame origin;
   std::vector<AttributeValue> attributes;

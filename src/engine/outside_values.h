@@ -9,9 +9,10 @@
 
 namespace gable {
 
-/// A warning for each attribute of the main file to which shapes bring values that its @Enum or
-/// @Range leaves out; it names the first shape and how many more there are. Linear in the
-/// attributes of all shapes. Codes: attribute-value, attribute-outside.
+/// A warning for each attribute to which shapes bring values of another type, or of the main file
+/// values that its @Enum or @Range leaves out; it names the first shape and how many more there
+/// are. Linear in the attributes of all shapes. Codes: attribute-type, attribute-value,
+/// attribute-outside.
 DiagnosticList outsideValues(std::span<const InitialShape> shapes, const Rules::Impl& rules);
 
 }  // namespace gable

@@ -24,6 +24,7 @@ ShapeFootprint footprint(ShapeInput input) {
   ShapeFootprint f;
   f.name = std::move(input.name);
   f.id = std::move(input.id);
+  f.feature = input.feature;
   f.attributes = std::move(input.attributes);
   f.faceTags = std::move(input.faceTags);
   f.streetWidths = std::move(input.streetWidths);

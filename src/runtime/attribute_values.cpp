@@ -43,30 +43,24 @@ bool convert(const Value& v, ValueType wanted, const ValuePool& pool, Value& out
   return false;
 }
 
-bool takesValues(const AttributeCode& a) { return !a.constant && a.propagatesFrom < 0; }
-
 }  // namespace
+
+bool takesValues(const AttributeCode& a) { return !a.constant && a.propagatesFrom < 0; }
 
 void AttributeValues::begin() { slots_.assign(slots_.size(), Slot{}); }
 
-void AttributeValues::give(const Given& values, const Program& program, ValuePool& pool,
-                           Diagnostics& told) {
+bool takesValue(const AttributeCode& attribute, const Value& value, const ValuePool& pool) {
+  Value taken;
+  return convert(value, attribute.type, pool, taken);
+}
+
+void AttributeValues::give(const Given& values, const Program& program, const ValuePool& pool) {
   for (const auto& [name, value] : values) {
     for (uint32_t a = 0; a < program.attributes.size(); ++a) {
       const AttributeCode& attribute = program.attributes[a];
       if (!takesValues(attribute) || attribute.name != name) continue;
       Value taken;
-      if (convert(value, attribute.type, pool, taken)) {
-        set(a, taken);
-        continue;
-      }
-      told.warning("attribute-type", attribute.span,
-                   "the value '" + pool.str(value) + "' given for '" + name + "' is no " +
-                       typeName(attribute.type),
-                   attribute.type == ValueType::Float
-                       ? "the value of the rule file is used instead; write a number, or a length "
-                         "with its unit, such as 12 ft"
-                       : "the value of the rule file is used instead");
+      if (convert(value, attribute.type, pool, taken)) set(a, taken);
     }
   }
 }

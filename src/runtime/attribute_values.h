@@ -15,6 +15,11 @@
 
 namespace gable {
 
+/// Whether values can be given to an attribute by its name.
+bool takesValues(const AttributeCode& a);
+/// Whether a value that is given to it is of use for its type: text may be a number or a length.
+bool takesValue(const AttributeCode& attribute, const Value& value, const ValuePool& pool);
+
 class AttributeValues {
  public:
   using Given = std::vector<std::pair<std::string, Value>>;
@@ -23,9 +28,9 @@ class AttributeValues {
 
   /// Forgets all values.
   void begin();
-  /// Takes values by name for the program's attributes. What is of no use for an attribute's type
-  /// is told, and the attribute keeps its initialiser.
-  void give(const Given& values, const Program& program, ValuePool& pool, Diagnostics& told);
+  /// Takes values by name for the program's attributes. Where one is of no use for its type, the
+  /// attribute keeps its initialiser.
+  void give(const Given& values, const Program& program, const ValuePool& pool);
 
   bool isKnown(uint32_t a) const { return slots_[a].state == State::Known; }
   /// Its initialiser is at work.

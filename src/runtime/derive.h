@@ -44,6 +44,8 @@ struct InitialShape {
   std::string startRule;
   /// What identifies the shape for randomness: its feature id or name; empty: its index.
   std::string identity;
+  /// The feature of the file that it is, from 1; 0 where it is none. For messages.
+  uint64_t feature = 0;
   /// The index that counts where some shapes of an input are left out; below 0: the place here.
   int64_t index = -1;
   /// In place of the derivation's seed.

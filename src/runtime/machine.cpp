@@ -283,8 +283,8 @@ void Machine::beginRoot(uint32_t rule) {
 
 // Attributes are bound by name: options over the shape's own, both over the initialiser.
 void Machine::bindAttributes(const InitialShape& shape) {
-  attributeValues_.give(shape.attributes, program_, pool(), log_.input());
-  attributeValues_.give(options().attributes, program_, pool(), log_.input());
+  attributeValues_.give(shape.attributes, program_, pool());
+  attributeValues_.give(options().attributes, program_, pool());
 }
 
 std::vector<EvaluatedAttribute> Machine::attributeValues() {
@@ -352,7 +352,7 @@ std::string Machine::shapePath() const {
 std::string Machine::shapePath(uint32_t end, uint32_t& length) const {
   constexpr uint32_t kMost = 8;
   std::string out = portion_             ? portion_->path
-                    : info_.name.empty() ? "shape " + std::to_string(info_.index)
+                    : info_.name.empty() ? "shape " + std::to_string(info_.index + 1)
                                          : info_.name;
   length = portion_ ? portion_->pathLength : 0;
   for (uint32_t i = portion_ ? 1 : 0; i < end && length <= kMost; ++i) {

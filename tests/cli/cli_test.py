@@ -221,6 +221,59 @@ class Options(Case):
         self.assertIn("generate.args has --lot 320x300", told)
         self.assertNotIn("usual-lot", self.run_gable("generate", "x.cga", "--lot", "9x9", "-o", "a.glb"))
 
+    def testAWallIsNamedToRulesThatBeginWithOne(self):
+        self.put("x.cga", "Wall --> split(y) { 3 : A. | ~1 : B. }")
+        self.run_gable("generate", "x.cga", "-o", "a.glb", says="--face 12x9 gives a wall")
+        self.run_gable("render", "x.cga", "--size", "16x9", "--samples", "1", "-o", "a.png", says="--face 12x9 gives a wall")
+        self.assertEqual(self.run_gable("generate", "x.cga", "--face", "12x9", "-o", "a.glb"), "")
+
+    def testBrokenFeaturesAreLeftOutAndNamed(self):
+        self.put("x.cga", "attr height = 4\nLot --> extrude(height) A.")
+        lot = {"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 9], [0, 0]]]}
+        bow = {"type": "Polygon", "coordinates": [[[0, 0], [9, 9], [9, 0], [0, 9], [0, 0]]]}
+        word = {"type": "Polygon", "coordinates": [[[0, 0], ["x", 0], [9, 9], [0, 9], [0, 0]]]}
+
+        def put(name, *features):
+            crs = {"type": "name", "properties": {"name": "EPSG:25832"}}
+            rows = [{"type": "Feature", "geometry": g, "properties": {"building": "yes", **p}} for g, p in features]
+            self.put(name, json.dumps({"type": "FeatureCollection", "crs": crs, "features": rows}))
+
+        put("some.geojson", (lot, {}), (bow, {"id": "b7"}), (word, {"name": "Hall"}), (lot, {"height": "tall"}), (lot, {"height": "low"}))
+        told = self.run_gable("generate", "x.cga", "--shapes", "some.geojson", "-o", "a.glb", "--stats", "s.json")
+        self.assertNotIn("error", told)
+        for says in ("warning: feature 2 (id b7) of 'some.geojson' is left out: ", "warning: feature 3 'Hall' of 'some.geojson' is left out: ",
+                     "warning: 'height' is a number, and 'tall' is none, in feature 4 and one more"):
+            self.assertIn(says, told)
+        codes = [d["code"] for d in json.loads((self.folder / "s.json").read_text())["diagnostics"]]
+        self.assertEqual(codes, ["geojson-crossing", "geojson-coordinates", "attribute-type"])
+        self.run_gable("generate", "x.cga", "--shapes", "some.geojson", "-o", "a.glb", "--strict", status=WRONG)
+        put("none.geojson", (bow, {}))
+        told = self.run_gable("generate", "x.cga", "--shapes", "none.geojson", "-o", "a.glb", status=WRONG, says="[shapes-empty]")
+        self.assertIn("feature 1 of 'none.geojson' is left out", told)
+        put("many.geojson", *[(bow, {})] * 30, (lot, {}))
+        told = self.run_gable("generate", "x.cga", "--shapes", "many.geojson", "-o", "a.glb", says="30 features or parts of them")
+        self.assertEqual(told.count("is left out"), 20)
+
+    def testStatsHaveWhatIsToldOfTheRules(self):
+        self.put("x.cga", "Lot --> extrude(3) Wal")
+        self.run_gable("generate", "x.cga", "-o", "a.glb", "--stats", "s.json")
+        codes = [d["code"] for d in json.loads((self.folder / "s.json").read_text())["diagnostics"]]
+        self.assertEqual(codes, ["undefined-rule"])
+
+    def testInfoListsTheOwnFirstAndEachOnce(self):
+        self.put("lib.cga", "attr w = 2\nDoor --> s(w, 2, 0.1) X.\nInner --> Door")
+        self.put("x.cga", 'import a : "lib.cga" (w = 3)\nimport b : "lib.cga"\n@Hidden attr secret = 4\nLot --> Own\nOwn --> [ a.Inner ] b.Inner a(w = secret).Inner')
+        told = self.run_gable("info", "x.cga", "--all")
+        self.assertEqual(told.count("Inner "), 1)
+        self.assertEqual(told.count("Door "), 1)
+        self.assertLess(told.index("  Own "), told.index("Inner "))
+        self.assertIn("float = 4  @Hidden", told)
+
+    def testSeveralStartRulesAreNoted(self):
+        self.put("x.cga", "@StartRule A --> X.\n@StartRule B --> X.")
+        self.run_gable("generate", "x.cga", "-o", "a.glb", says="--start B")
+        self.assertEqual(self.run_gable("generate", "x.cga", "--start", "A", "-o", "a.glb"), "")
+
     def testWhatHasNoRoomIsTold(self):
         rules = 'Lot --> [ House ] House\nHouse --> ifFree("house") { A. %s}'
         self.put("x.cga", rules % "")

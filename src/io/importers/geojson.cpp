@@ -29,6 +29,7 @@
 #include "io/importers/shape_input.h"
 #include "io/importers/shape_parts.h"
 #include "shape/edge_attributes.h"
+#include "shape/feature_text.h"
 
 namespace gable {
 namespace {
@@ -43,6 +44,8 @@ constexpr double kWidestPolygon = 0.2;
 // More than once around the Earth.
 constexpr double kFarthest = 1e8;
 constexpr int kDeepestCollection = 16;
+// Of what is left out, so many are named.
+constexpr size_t kMostNamed = 20;
 
 struct Feature {
   const JsonValue* geometry = nullptr;
@@ -85,6 +88,7 @@ class GeoJsonReader {
   void buildLines(MeshBuilder& b, std::vector<double>& widths) const;
   void addAllLines();
   Result<ShapeFile> readRoot(const JsonValue& root);
+  Result<ShapeFile> withoutShapes();
   bool readPoints(const JsonValue& coordinates, std::vector<Vec2>& out);
   bool readRing(const JsonValue& coordinates, Ring& out);
   void addFace(const Polygon& p);
@@ -92,8 +96,8 @@ class GeoJsonReader {
     if (!projection_) return p - shift_;
     return projection_->forward({p.x < west_ ? p.x + 360 : p.x, p.y});
   }
-  void complain(Severity severity, const char* code, const std::string& what,
-                const std::string& hint = {});
+  void complain(const char* code, const std::string& what, const std::string& hint = {});
+  void leaveOut(const char* code, const std::string& why, const std::string& hint = {});
   std::string place() const;
   void addAttributes(const JsonValue& properties, ShapeInput& shape);
   void addEdgeValues(const std::string& name, const JsonValue& list, ShapeInput& shape);
@@ -125,29 +129,29 @@ class GeoJsonReader {
   std::map<std::string, size_t> properties_, values_;
   // Of those seen: which the filter lets pass, and which of these are points.
   size_t chosen_ = 0, chosenPoints_ = 0;
-  size_t seen_ = 0, faces_ = 0, messages_ = 0, otherGeometries_ = 0;
+  bool inParts_ = false;
+  size_t seen_ = 0, faces_ = 0, messages_ = 0, leftOut_ = 0, otherGeometries_ = 0;
   bool hasHeights_ = false;
   // Those that have been handed on, when the file is read in pieces.
   size_t handedOn_ = 0;
 };
 
 std::string GeoJsonReader::place() const {
-  std::string out = "feature " + std::to_string(feature_->number + 1);
-  if (!feature_->id.empty()) out += " (id " + feature_->id + ")";
-  if (!name_.empty()) out += " '" + name_ + "'";
-  return out;
+  return featureText(feature_->number + 1, feature_->id, name_);
 }
 
-void GeoJsonReader::complain(Severity severity, const char* code, const std::string& what,
-                             const std::string& hint) {
+void GeoJsonReader::complain(const char* code, const std::string& what, const std::string& hint) {
   // A file that is wrong throughout is told so once, not a million times.
   if (++messages_ > kMostDiagnostics) return;
-  Diagnostics::Entry d;
-  d.severity = severity;
-  d.code = code;
-  d.message = place() + " of '" + path_ + "': " + what;
-  d.hint = hint;
-  out_.diagnostics.add(std::move(d));
+  out_.diagnostics.warning(code, {}, place() + " of '" + path_ + "': " + what, hint);
+}
+
+// Of a feature of several parts the others stay.
+void GeoJsonReader::leaveOut(const char* code, const std::string& why, const std::string& hint) {
+  const std::string of = inParts_ ? "a part of " : "";
+  if (++leftOut_ > kMostNamed) return;
+  out_.diagnostics.warning(code, {}, of + place() + " of '" + path_ + "' is left out: " + why,
+                           hint);
 }
 
 bool GeoJsonReader::passes(const Feature& f) const {
@@ -302,12 +306,12 @@ bool GeoJsonReader::readPoints(const JsonValue& coordinates, std::vector<Vec2>& 
     work();
     Vec2 p;
     if (!positionOf(v, p)) {
-      complain(Severity::Error, "geojson-coordinates", "a position is not two numbers");
+      leaveOut("geojson-coordinates", "a position is not two numbers");
       return false;
     }
     const Vec2 at = local(p);
     if (!(std::fabs(at.x) < kFarthest && std::fabs(at.y) < kFarthest)) {
-      complain(Severity::Error, "geojson-coordinates", "a position is too far away");
+      leaveOut("geojson-coordinates", "a position is too far away");
       return false;
     }
     const double height = v.at(2).number(0);
@@ -363,7 +367,7 @@ void GeoJsonReader::addPolygon(const JsonValue& rings) {
   Polygon p;
   if (!readRing(rings.at(0), p.outer)) return;
   if (p.outer.size() < 3) {
-    complain(Severity::Warning, "geojson-empty", "a polygon has fewer than three corners");
+    leaveOut("geojson-empty", "a polygon has fewer than three corners");
     return;
   }
   for (size_t i = 1; i < rings.size(); ++i) {
@@ -373,7 +377,7 @@ void GeoJsonReader::addPolygon(const JsonValue& rings) {
   }
   orient(p);
   if (!isSimple(p.outer)) {
-    complain(Severity::Error, "geojson-crossing", "the outline of a polygon crosses itself",
+    leaveOut("geojson-crossing", "the outline of a polygon crosses itself",
              "mend the polygon in a map editor");
     return;
   }
@@ -389,12 +393,11 @@ void GeoJsonReader::addPolygon(const JsonValue& rings) {
   });
   unwindIfStopped(cut);
   if (!cut.ok()) {
-    complain(Severity::Error, "geojson-crossing",
-             "the holes of a polygon cannot be cut out: " + cut.message(),
+    leaveOut("geojson-crossing", "the holes of a polygon cannot be cut out: " + cut.message(),
              "mend the polygon in a map editor");
     return;
   }
-  complain(Severity::Warning, "geojson-holes",
+  complain("geojson-holes",
            "holes of a polygon touch or cross each other or its outline and are merged",
            "mend the polygon in a map editor");
   for (const Polygon& part : left) addFace(part);
@@ -408,7 +411,7 @@ void GeoJsonReader::addLine(const JsonValue& coordinates) {
   if (line.size() > 1) {
     lines_.push_back(std::move(line));
   } else {
-    complain(Severity::Warning, "geojson-empty", "a line has fewer than two points");
+    leaveOut("geojson-empty", "a line has fewer than two points");
   }
 }
 
@@ -472,13 +475,13 @@ void GeoJsonReader::addEdgeValues(const std::string& name, const JsonValue& list
   // Lines of the feature follow its faces.
   AttributeValue values = edges_.values(name, list, shape.mesh.faceCount() - faces_);
   if (values.values.empty()) {
-    complain(Severity::Warning, "edge-values",
+    complain("edge-values",
              "the attribute '" + name + "' is no list of values of one kind, and is left out",
              "give each edge a number, a text, or true or false");
     return;
   }
   if (list.size() != edges_.written()) {
-    complain(Severity::Warning, "edge-count",
+    complain("edge-count",
              "the attribute '" + name + "' has " + std::to_string(list.size()) +
                  (list.size() == 1 ? " value" : " values") + " for " +
                  std::to_string(edges_.written()) + " edges",
@@ -505,7 +508,9 @@ void GeoJsonReader::addFeature(const Feature& f) {
   builder_ = MeshBuilder();
   faces_ = 0;
   lines_.clear();
-  const size_t before = messages_ + otherGeometries_;
+  inParts_ = f.geometry && (*f.geometry)["type"].text() != "Polygon" &&
+             (*f.geometry)["type"].text() != "LineString";
+  const size_t before = messages_ + leftOut_ + otherGeometries_;
   if (f.geometry && f.geometry->isObject()) addGeometry(*f.geometry, 0);
   if (faces_ == 0 && !lines_.empty()) {
     // Lines are a shape where there is no other.
@@ -514,8 +519,9 @@ void GeoJsonReader::addFeature(const Feature& f) {
     return;
   }
   if (faces_ == 0) {
-    if (messages_ + otherGeometries_ == before) {
-      complain(Severity::Warning, "geojson-empty", "it has no polygon and no line");
+    if (messages_ + leftOut_ + otherGeometries_ == before) {
+      inParts_ = false;
+      leaveOut("geojson-empty", "it has no polygon and no line");
     }
     return;
   }
@@ -523,9 +529,8 @@ void GeoJsonReader::addFeature(const Feature& f) {
   buildLines(builder_, shape.streetWidths);
   shape.mesh = builder_.take();
   shape.id = f.id;
-  shape.name = !name_.empty()  ? name_
-               : !f.id.empty() ? f.id
-                               : "shape " + std::to_string(f.number + 1);
+  shape.feature = f.number + 1;
+  shape.name = !name_.empty() ? name_ : !f.id.empty() ? f.id : featureText(f.number + 1, {}, {});
   if (f.properties) addAttributes(*f.properties, shape);
   out_.shapes.push_back(std::move(shape));
 }
@@ -628,6 +633,15 @@ Error GeoJsonReader::empty() const {
           hint};
 }
 
+// Where all features are left out, why they are is told as well.
+Result<ShapeFile> GeoJsonReader::withoutShapes() {
+  if (out_.diagnostics.hasErrors()) return std::move(out_);
+  const Error e = empty();
+  if (leftOut_ == 0) return e;
+  out_.diagnostics.error(e.code, {}, e.message, e.hint);
+  return std::move(out_);
+}
+
 Result<ShapeFile> GeoJsonReader::read(std::string_view text) {
   const Result<JsonValue> root = parseGeometries(text, path_);
   if (!root.ok()) return root.error();
@@ -643,9 +657,7 @@ Result<ShapeFile> GeoJsonReader::readRoot(const JsonValue& root) {
   for (const Feature& f : features_) addFeature(f);
   addAllLines();
   conclude();
-  if (out_.shapes.empty() && !out_.diagnostics.hasErrors()) {
-    return empty();
-  }
+  if (out_.shapes.empty()) return withoutShapes();
   return std::move(out_);
 }
 
@@ -656,12 +668,21 @@ void GeoJsonReader::conclude() {
                              "'" + path_ + "' has " + std::to_string(messages_ - kMostDiagnostics) +
                                  " more messages of this kind");
   }
+  if (leftOut_ > kMostNamed) {
+    out_.diagnostics.warning("map-rows", {},
+                             std::to_string(leftOut_) + " features or parts of them of '" + path_ +
+                                 "' are left out, of which the first " +
+                                 std::to_string(kMostNamed) + " are named",
+                             "mend them in a map editor where they matter");
+  }
   if (otherGeometries_ > 0) {
     Diagnostics::Entry d;
     d.severity = Severity::Note;
     d.code = "geojson-no-polygon";
-    d.message = std::to_string(otherGeometries_) + " geometries of '" + path_ +
-                "' are no polygons and are passed over";
+    d.message = std::to_string(otherGeometries_) +
+                (otherGeometries_ == 1 ? " geometry of '" : " geometries of '") + path_ +
+                (otherGeometries_ == 1 ? "' is no polygon and is passed over"
+                                       : "' are no polygons and are passed over");
     out_.diagnostics.add(std::move(d));
   }
   if (hasHeights_) {
@@ -745,7 +766,7 @@ Result<ShapeFile> GeoJsonReader::readPieces(FeaturePieces& file, const ShapeSink
   addAllLines();
   handOn(sink);
   conclude();
-  if (handedOn_ == 0 && !out_.diagnostics.hasErrors()) return empty();
+  if (handedOn_ == 0) return withoutShapes();
   return std::move(out_);
 }
 

@@ -39,6 +39,8 @@ struct ShapeInput {
   std::vector<AttributeValue> attributes;
   /// The feature's own id, as text; may be empty.
   std::string id;
+  /// The feature of the file that it is, from 1; 0 where the file has none.
+  uint64_t feature = 0;
   /// By face, or empty: a tag for it.
   std::vector<std::string> faceTags;
   /// By face, or empty: the width of the street that a line is the middle of, in metres, by the
