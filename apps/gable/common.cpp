@@ -164,6 +164,20 @@ int readInputs(const DeriveArguments& arguments, Inputs& inputs) {
   return deriveSettings(arguments, inputs.settings);
 }
 
+void tellOfFace(const gable::DiagnosticList& diagnostics, const DeriveArguments& arguments) {
+  if (!arguments.shapes.empty() || !arguments.face.empty()) return;
+  const bool flat = std::any_of(diagnostics.begin(), diagnostics.end(), [](const auto& d) {
+    return d.code == "split-flat" && d.message.find(" in y") != std::string::npos;
+  });
+  if (!flat) return;
+  gable::Diagnostic d;
+  d.severity = gable::Diagnostic::Severity::Note;
+  d.code = "usual-lot";
+  d.message = "the rules begin with a flat lot; --face 12x9 gives a wall in its place";
+  d.rendered = "note: " + d.message + " [" + d.code + "]\n";
+  print({d});
+}
+
 gable::Model& heldModel() {
   static gable::Model& model = *new gable::Model(nullptr);
   return model;

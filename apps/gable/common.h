@@ -100,6 +100,9 @@ struct Inputs {
 };
 int readInputs(const DeriveArguments& arguments, Inputs& inputs);
 
+/// A rule for a wall that begins with the flat lot: says which option gives a wall.
+void tellOfFace(const gable::DiagnosticList& diagnostics, const DeriveArguments& arguments);
+
 /// The exit status that a derivation asks for.
 int statusOf(const gable::Model& model);
 /// kExitUsage where the command line is to blame for these diagnostics, kExitLimit where a limit or

@@ -66,6 +66,7 @@ int generateOnce(const GenerateArguments& arguments) {
   // JSON on the standard output is that and nothing else; what was printed is part of it.
   std::FILE* const prints = arguments.stats == "-" || terminal().json ? stderr : stdout;
   const gable::Model model = deriveModel(inputs.rules, inputs.shapes, inputs.settings, prints);
+  tellOfFace(model.diagnostics(), arguments.derive);
   if (gable::hasErrors(model.diagnostics())) return statusOf(model);
   tellEmpty(model, inputs);
 

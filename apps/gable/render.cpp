@@ -321,6 +321,7 @@ int makeModel(RenderArguments& arguments) {
   Inputs inputs;
   if (const int status = readForPicture(arguments, inputs)) return status;
   deriveHeld(inputs.rules, inputs.shapes, inputs.settings);
+  tellOfFace(heldModel().diagnostics(), arguments.derive);
   return kExitDone;
 }
 

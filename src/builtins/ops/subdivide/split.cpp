@@ -27,15 +27,19 @@ constexpr double kFlat = 1e-9;
 
 bool isPrimitive(const Geometry& g) { return g.kind != GeometryKind::Mesh && !g.uv; }
 
-// Where a direction is named the parts are meant to fit.
-void warnOfOverflow(const OpCall& call, double whole) {
+// Where a direction is named the parts are meant to fit. Else rules may well count on the cut.
+void tellOverflow(const OpCall& call, double whole, bool meantToFit) {
   const double over = overflowOf(call.splitBlock(), whole);
   if (over <= 1e-9 * (1 + whole)) return;
-  call.services().warn("split-overflow",
-                       "'split': the parts are " + shortestText(over) +
-                           " m longer than the shape, of " + shortestText(whole) +
-                           " m; the last ones are cut or not made",
-                       "make them smaller, or the shape larger");
+  const auto rounded = [](double v) { return shortestText(std::round(v * 1000) / 1000); };
+  std::string what = "'split': the parts are " + rounded(over) + " m longer than the shape, of " +
+                     rounded(whole) + " m; the last ones are cut or not made";
+  const char* const hint = "make them smaller, or the shape larger";
+  if (meantToFit) {
+    call.services().warn("split-overflow", std::move(what), hint);
+  } else {
+    call.services().note("split-overflow", std::move(what), hint);
+  }
 }
 
 enum class Adjust : uint8_t { Adjust, NoAdjust };
@@ -79,15 +83,14 @@ Status splitAlong(OpCall& call, const Split& args) {
   const Shape& s = call.shape();
   const double whole = std::fabs(component(s.size, axis));
   if (!(whole > kFlat)) {
-    return call.fail("split-flat", "the scope has no extent along the axis of this split",
-                     "split along another axis, or give the scope a size first");
+    return flatAlong(call, axis);
   }
   SplitPieces pieces;
   const Status status = dividePattern(call.splitBlock(), whole, pieces);
   if (!status.ok()) return status;
   const bool directed = args.direction.has_value();
   if (args.direction == Direction::ToRoot) mirrorPieces(pieces, whole);
-  if (directed) warnOfOverflow(call, whole);
+  tellOverflow(call, whole, directed);
   const bool adjust = args.adjust == Adjust::Adjust;
   if (isPrimitive(s.geometry)) {
     call.emitParts(axis, adjust, {pieces.begin(), pieces.size()}, !directed);

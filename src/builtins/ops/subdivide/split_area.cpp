@@ -8,6 +8,7 @@
 
 #include "base/work.h"
 #include "builtins/lists.h"
+#include "builtins/ops/subdivide/shared/parts.h"
 #include "builtins/ops/subdivide/shared/slabs.h"
 #include "builtins/ops/subdivide/shared/split_sizes.h"
 #include "shape/op_call.h"
@@ -104,8 +105,7 @@ Status applySplitArea(OpCall& call, const SplitArea& args) {
   direction[a] = s.size[a] < 0 ? -1 : 1;
   const AreaBefore areas(*mesh, direction);
   if (!(whole > 1e-9) || !(areas.total() > 0)) {
-    return call.fail("split-flat", "the shape has no area along the axis of this split",
-                     "split along another axis");
+    return flatAlong(call, axis);
   }
   SplitPieces byArea;
   const Status status = dividePattern(call.splitBlock(), areas.total(), byArea);

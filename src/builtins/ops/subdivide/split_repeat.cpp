@@ -9,6 +9,7 @@
 #include "base/work.h"
 #include "builtins/lists.h"
 #include "builtins/ops/subdivide/shared/cells.h"
+#include "builtins/ops/subdivide/shared/parts.h"
 #include "shape/op_call.h"
 
 namespace gable {
@@ -16,11 +17,6 @@ namespace gable {
 namespace {
 
 constexpr double kFlat = 1e-9;
-
-Status flatFailure(const OpCall& call) {
-  return call.fail("split-flat", "the scope has no extent along the axis of this split",
-                   "split along another axis, or give the scope a size first");
-}
 
 void emitCells(OpCall& call, Cells& cells, size_t rows, size_t columns) {
   const auto total = static_cast<uint32_t>(rows * columns);
@@ -42,7 +38,7 @@ Status applyRepeat(OpCall& call, const SplitEvenly& args) {
   const Axis axis = args.axis;
   const Shape& s = call.shape();
   const double whole = std::fabs(component(s.size, axis));
-  if (!(whole > kFlat)) return flatFailure(call);
+  if (!(whole > kFlat)) return flatAlong(call, axis);
   SplitPieces pieces;
   const Status status =
       equalPieces(whole, component(call.preferredSize(0), axis), args.rounding.text, pieces);
@@ -57,7 +53,7 @@ Status applyGrid(OpCall& call, const SplitEvenly& args) {
   const Axis axis = args.axis;
   const Shape& s = call.shape();
   AxisPair pair;
-  if (!axesAround(s, axis, pair)) return flatFailure(call);
+  if (!axesAround(s, axis, pair)) return flatAlong(call, axis);
   // The outer loop runs along x, or along z where x stays whole.
   if (pair.whole == Axis::X) std::swap(pair.u, pair.v);
   const Vec3 preferred = call.preferredSize(0);

@@ -4,6 +4,7 @@
 #include "builtins/ops/subdivide/shared/parts.h"
 
 #include <cmath>
+#include <string>
 
 namespace gable {
 
@@ -44,6 +45,13 @@ void setPartMesh(Shape& child, const Shape& parent, Mesh mesh, bool adjust) {
   child.scope.origin = child.scope.point(corner);
   child.size = size;
   setMesh(child, std::move(moved), ScopeFit::Keep);
+}
+
+Status flatAlong(const OpCall& call, Axis axis) {
+  const std::string name(1, "xyz"[static_cast<size_t>(axis)]);
+  return call.fail("split-flat", "the shape is flat: its scope has no extent in " + name,
+                   axis == Axis::Y ? "extrude it first, or split along x or z"
+                                   : "split along another axis, or give the scope a size first");
 }
 
 }  // namespace gable

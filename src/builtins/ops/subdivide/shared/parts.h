@@ -20,4 +20,7 @@ Shape scopePart(const Shape& parent, Axis axis, double start, double size);
 /// sizes that were negative stay negative.
 void setPartMesh(Shape& child, const Shape& parent, Mesh mesh, bool adjust);
 
+/// The failure of a split along an axis in which the scope has no extent.
+[[gnu::cold]] Status flatAlong(const OpCall& call, Axis axis);
+
 }  // namespace gable
