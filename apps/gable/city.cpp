@@ -144,7 +144,9 @@ int buildModel(const gable::City& city, CityArguments& arguments, const Making& 
 
 }  // namespace
 
-int runCity(const CityArguments& given) {
+namespace {
+
+int makeCity(const CityArguments& given) {
   CityArguments arguments = given;
   const double begin = secondsNow();
   const bool draws = !arguments.picture.output.empty();
@@ -211,4 +213,12 @@ int runCity(const CityArguments& given) {
     if (const int written = writeCounts(arguments.stats, text)) return written;
   }
   return status;
+}
+
+}  // namespace
+
+int runCity(const CityArguments& arguments) {
+  hasWarned();
+  const int status = makeCity(arguments);
+  return status == kExitDone && arguments.strict && hasWarned() ? kExitWrong : status;
 }

@@ -24,6 +24,8 @@ struct CityArguments {
   /// Where the ground goes as GeoJSON.
   std::string plan;
   std::string stats;
+  /// As of GenerateArguments.
+  bool strict = false;
   ReportArguments reports;
   WriteArguments write;
   TileArguments tiles;

@@ -254,6 +254,11 @@ void addReports(CLI::App* app, ReportArguments& a) {
 
 void addGenerate(CLI::App& app, GenerateArguments& a, int& status) {
   auto* generate = app.add_subcommand("generate", "Derive rules and write a model");
+void addStrict(CLI::App* app, bool& strict) {
+  app->add_flag("--strict", strict,
+                "Exit with status 1 where there are warnings; the model is written all the same");
+}
+
   generate->add_option("rules", a.derive.rules, "The rule file or package")->required();
   addDeriveOptions(generate, a.derive);
   generate->add_option("-o,--output", a.output, "The model: " + modelEndings())->required();
@@ -266,9 +271,7 @@ void addGenerate(CLI::App& app, GenerateArguments& a, int& status) {
       ->needs("--shapes");
   addWriting(generate, a.write);
   addRuns(generate, a.count, a.watch);
-  generate->add_flag(
-      "--strict", a.strict,
-      "Exit with status 1 where there are warnings; the model is written all the same");
+  addStrict(generate, a.strict);
   generate->callback([&a, &status] { status = runGenerate(a); });
 }
 
@@ -341,6 +344,7 @@ void addCity(CLI::App& app, CityArguments& a, int& status) {
   city->add_option("--stats", a.stats, "Write areas and counts as JSON to a file, or - for stdout");
   city->add_option("--set", a.derive.set,
                    "An attribute's value: NAME=VALUE; may be repeated. Names of imported files\n"
+  addStrict(city, a.strict);
                    "have the import's before them: houses.roof_shape; gable info --all lists them")
       ->type_size(1)
       ->expected(1)

@@ -276,6 +276,7 @@ class City(Case):
 
     def testWhatCannotBeReadIsNamed(self):
         self.city("map.geojson", "-o", "a.glb", says="map-row")
+        self.city("map.geojson", "-o", "a.glb", "--strict", status=WRONG, says="is left out")
         self.city("none.osm", "-o", "b.glb", status=FILE, says="none.osm")
         self.city("map.geojson", "--box", "1,2,3", "-o", "b.glb", status=USAGE, says="--box")
         self.city("map.geojson", "--box", "100000,50000,100001,50001", "-o", "b.glb", status=WRONG, says="lies in the box")
