@@ -159,6 +159,30 @@ bool Parser::endsBehind() const {
   }
 }
 
+// The sign of a share behind its number, 0.5'. Before a number it belongs to that one.
+bool Parser::shareBehindAt(size_t at) const {
+  const Token& t = token(at);
+  if (at == 0 || t.kind != TokenKind::Quote) return false;
+  const Token& next = token(at + 1);
+  const bool before =
+      next.begin == t.end && (next.kind == TokenKind::Number || next.kind == TokenKind::Name ||
+                              next.kind == TokenKind::LParen);
+  return !before && tokens_[at - 1].kind == TokenKind::Number && tokens_[at - 1].end == t.begin;
+}
+
+// Reports it, and reads the number as the share that is meant.
+NodeId Parser::takeShareBehind(NodeId number) {
+  if (!shareBehindAt(at_)) return number;
+  const Token& digits = tokens_[at_ - 1];
+  const std::string share = "'" + std::string(textOf(digits));
+  const Span span = {file_, digits.begin, current().end};
+  error("unexpected-token", span, "the sign of a share stands before its number",
+        "write " + share + " for a share of the scope's size");
+  fix(span, share);
+  advance();
+  return make(node(NodeKind::Relative, digits.begin), {number});
+}
+
 // A '%' that nothing follows to divide by: 50% in the place of '0.5.
 bool Parser::skipPercent(NodeId left) {
   if (!is(TokenKind::Percent) || !endsBehind()) return false;
@@ -269,7 +293,7 @@ NodeId Parser::parsePrimary() {
     advance();
     skipUnit();
     n.end = t.end;
-    return tree_.add(n);
+    return takeShareBehind(tree_.add(n));
   }
   if (t.kind == TokenKind::String) {
     Node n = node(NodeKind::String, t.begin);
@@ -368,6 +392,15 @@ NodeId Parser::parseIndex(NodeId base) {
 
 // A value, `name = value`, or within closed brackets an override `Rule --> successors`.
 NodeId Parser::parseArgument(bool matched) {
+  if (matched && isName(current()) && ahead(1).kind == TokenKind::Colon) {
+    const Span name = {file_, current().begin, ahead(2).begin};
+    error("unexpected-token", spanOf(ahead(1)), "an argument has no ':' before its value",
+          "write the value alone; operations, functions and imports take '" +
+              std::string(textOf(current())) + " = value' as well");
+    fix(name, "");
+    at_ += 2;
+    return parseExpression();
+  }
   if (isName(current()) && ahead(1).kind == TokenKind::Equal) {
     Node n = node(NodeKind::NamedArg, current().begin);
     n.text = tree_.intern(textOf(current()));

@@ -16,6 +16,7 @@ namespace gable::lang {
 
 namespace {
 
+constexpr const char* kColonBefore = "write ':' before what it chooses";
 constexpr const char* kNoBraces =
     "a branch has a colon and no braces: 'case condition : ... else : ...'";
 
@@ -66,6 +67,12 @@ NodeId Parser::parseSequence() {
 
 // Tells what is known of a token that begins no successor. False where nothing is.
 bool Parser::reportBadSuccessor() {
+  if (is(TokenKind::Comma)) {
+    error("unexpected-token", spanOf(current()), "operations have no ',' between them",
+          "remove it: they follow one another, as in extrude(5) comp(f) { ... }");
+    fix(spanOf(current()), "");
+    return true;
+  }
   if (starHere(at_)) {
     error("unexpected-token", spanOf(current()), "'*' repeats what stands in braces",
           "write it behind the closing brace: }*");
@@ -188,7 +195,8 @@ NodeId Parser::parseElse(bool expressions, bool told) {
   if (!(told && braces) && !accept(TokenKind::Colon)) {
     unexpected("':' after 'else'", is(Keyword::Case) ? "write 'else : case ...' or only 'case ...'"
                                    : braces          ? kNoBraces
-                                                     : "");
+                                                     : kColonBefore);
+    if (!braces) fix(spanAt(endOfLast()), " :");
   }
   const NodeId body = braces ? parseBracedBranch(expressions) : parseBranchBody(expressions);
   n.end = endOfLast();
@@ -215,7 +223,8 @@ bool Parser::comparesWithEqual() const {
         if (i > at_ && tokens_[i - 1].kind == TokenKind::Name)
           i = skipBrackets(i) - (t.match ? 1 : 0);
         break;
-      case TokenKind::LBrace:
+      // A condition that ends as in other languages.
+      case TokenKind::LBrace: return found && t.match != Token::kNoMatch;
       case TokenKind::RBrace:
       case TokenKind::Pipe:
       case TokenKind::Arrow:
@@ -223,6 +232,7 @@ bool Parser::comparesWithEqual() const {
       case TokenKind::At:
       case TokenKind::End: return false;
       default:
+        if (isWord(t, "then")) return found;
         if (t.keyword == Keyword::Case || t.keyword == Keyword::Else ||
             t.keyword == Keyword::Attr || t.keyword == Keyword::Const) {
           return false;
@@ -235,8 +245,11 @@ bool Parser::comparesWithEqual() const {
 void Parser::expectColonOfCondition() {
   if (accept(TokenKind::Colon)) return;
   const bool word = isName(current()) && isWord(current(), "then");
-  unexpected("':' after the condition of 'case'", word || is(TokenKind::LBrace) ? kNoBraces : "");
+  unexpected("':' after the condition of 'case'", word                    ? "write ':' for 'then'"
+                                                  : is(TokenKind::LBrace) ? kNoBraces
+                                                                          : kColonBefore);
   if (word) fix(spanOf(current()), ":");
+  if (!word && isName(current())) fix(spanAt(endOfLast()), " :");
   if (word) advance();
 }
 
@@ -444,7 +457,7 @@ bool Parser::headAfter(size_t first) const {
         break;
       case TokenKind::Tilde:
       case TokenKind::Quote:
-        if (afterOperand) return false;
+        if (afterOperand && !shareBehindAt(i)) return false;
         break;
       case TokenKind::Pipe:
       case TokenKind::RBrace:
@@ -532,6 +545,11 @@ NodeId Parser::parseItem(bool expressions) {
   }
   const NodeId body = expressions ? parseExpression() : parseSequence();
   n.end = std::max(n.begin, endOfLast());
+  const bool nothing = !expressions && head != kNoNode && tree_.children(body).empty();
+  if (nothing && (is(TokenKind::Pipe) || is(TokenKind::RBrace))) {
+    warning("empty-item", spanAt(endOfLast()), "there is nothing behind the ':' of this part",
+            "write the rule or the operations for it, or NIL where nothing shall be made");
+  }
   return make(n, {head, second, body});
 }
 

@@ -375,24 +375,56 @@ NodeId Parser::parseOverride() {
   return make(n, {value});
 }
 
+// The sign before the path of an import, or what stands in its place.
+bool Parser::takeColonOfImport() {
+  if (accept(TokenKind::Colon)) return true;
+  if (!is(TokenKind::Equal) && !is(TokenKind::String)) {
+    unexpected("':' before the path of the import", "write import name : \"file.cga\"");
+    return false;
+  }
+  const bool equals = is(TokenKind::Equal);
+  error("unexpected-token", spanOf(current()), "the path of an import has ':' before it",
+        equals ? "write ':' for '='" : "write import name : " + std::string(textOf(current())));
+  fix(equals ? spanOf(current()) : spanAt(endOfLast()), equals ? ":" : " :");
+  if (equals) advance();
+  return true;
+}
+
+NodeId Parser::parsePathOfImport() {
+  if (is(TokenKind::String)) {
+    Node s = node(NodeKind::String, current().begin);
+    s.text = tree_.intern(stringValue(textOf(current())));
+    advance();
+    s.end = endOfLast();
+    return tree_.add(s);
+  }
+  // What stands there up to a blank, where that is a path without its quotes.
+  const uint32_t begin = current().begin;
+  const size_t end = std::min(text_.find_first_of(" \t\r\n(\"", begin), text_.size());
+  const std::string path(text_.substr(begin, end - begin));
+  const bool isPath = !atEnd() && (path.find('/') != std::string::npos || path.ends_with(".cga"));
+  if (!isPath || declarationAt(at_, false)) {
+    unexpected("the path of a rule file as a string", "write import name : \"file.cga\"");
+    return kNoNode;
+  }
+  const Span span = {file_, begin, static_cast<uint32_t>(end)};
+  error("unexpected-token", span, "the path of an import stands in quotes",
+        "write \"" + path + "\"");
+  fix(span, "\"" + path + "\"");
+  Node s = node(NodeKind::String, begin);
+  s.text = tree_.intern(path);
+  while (!atEnd() && current().begin < end) advance();
+  s.end = static_cast<uint32_t>(end);
+  return tree_.add(s);
+}
+
 NodeId Parser::parseImport(NodeId annotations) {
   if (is(Keyword::Import) && isName(ahead(1))) advance();
   Node n = node(NodeKind::Import, current().begin);
   n.text = tree_.intern(textOf(current()));
   advance();
   const NodeId styles = is(TokenKind::LParen) ? parseStyleNames() : kNoNode;
-  NodeId path = kNoNode;
-  if (expect(TokenKind::Colon, "before the path of the import")) {
-    if (is(TokenKind::String)) {
-      Node s = node(NodeKind::String, current().begin);
-      s.text = tree_.intern(stringValue(textOf(current())));
-      advance();
-      s.end = endOfLast();
-      path = tree_.add(s);
-    } else {
-      unexpected("the path of a rule file as a string");
-    }
-  }
+  const NodeId path = takeColonOfImport() ? parsePathOfImport() : kNoNode;
   NodeId overrides = kNoNode;
   if (is(TokenKind::LParen)) {
     const Enter enter(*this, {0, false, true});

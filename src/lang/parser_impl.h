@@ -125,6 +125,8 @@ class Parser {
   NodeId parseAnnotationValue();
   NodeId parseVersion();
   NodeId parseStyle(NodeId annotations);
+  bool takeColonOfImport();
+  NodeId parsePathOfImport();
   NodeId parseImport(NodeId annotations);
   NodeId parseOverride();
   NodeId parseStyleNames();
@@ -191,6 +193,8 @@ class Parser {
   Sign operatorHere();
   bool unitAt(size_t at) const;
   void skipUnit();
+  bool shareBehindAt(size_t at) const;
+  NodeId takeShareBehind(NodeId number);
   bool endsBehind() const;
   bool skipPercent(NodeId left);
   bool notHere() const;

@@ -18,12 +18,21 @@ namespace {
 // Reads the arguments of one annotation.
 class NoteReader {
  public:
-  NoteReader(const Tree& tree, NodeId node, Diagnostics* diagnostics)
-      : tree_(tree), node_(node), diagnostics_(diagnostics) {}
+  /// `example`: how it is written.
+  NoteReader(const Tree& tree, NodeId node, Diagnostics* diagnostics, std::string_view example)
+      : tree_(tree), node_(node), diagnostics_(diagnostics), example_(example) {}
 
-  void warn(NodeId at, const std::string& message, const std::string& hint) {
+  /// Without a hint of its own the example says what to write.
+  void warn(NodeId at, const std::string& message, std::string hint = {}) {
     warned_ = true;
+    if (hint.empty() && !example_.empty()) hint = "write '" + std::string(example_) + "'";
     if (diagnostics_) diagnostics_->warning("bad-annotation", tree_.span(at), message, hint);
+  }
+  /// The same, with the edit that the hint says.
+  void warn(NodeId at, const std::string& message, const std::string& hint,
+            const std::string& instead) {
+    warn(at, message, hint);
+    if (diagnostics_) diagnostics_->fixLast(tree_.span(at), instead);
   }
 
   std::span<const NodeId> arguments() const { return tree_.children(node_); }
@@ -58,7 +67,7 @@ class NoteReader {
     if (arguments().size() == 1) {
       if (const auto s = string(arguments()[0])) return *s;
     }
-    warn(node_, "'@" + std::string(tree_.text(node_)) + "' takes one string", "");
+    warn(node_, "'@" + std::string(tree_.text(node_)) + "' takes one text, in quotes");
     return {};
   }
 
@@ -70,6 +79,7 @@ class NoteReader {
   const Tree& tree_;
   NodeId node_;
   Diagnostics* diagnostics_;
+  std::string_view example_;
   bool warned_ = false;
 };
 
@@ -83,7 +93,7 @@ void readEnumValues(NoteReader& r, EnumNote& note) {
     } else if (const auto b = r.truth(a)) {
       note.values.push_back({false, 0, *b ? "true" : "false"});
     } else {
-      r.warn(a, "a value of '@Enum' must be a number or a string", "");
+      r.warn(a, "a value of '@Enum' is a number or a text in quotes");
     }
   }
 }
@@ -139,7 +149,7 @@ void readLabels(NoteReader& r, Annotations& out) {
     } else if (const auto s = r.word(value)) {
       choices.values.push_back({false, 0, *s});
     } else {
-      r.warn(a, "a value of '@Range' must be a number or a string", "");
+      r.warn(a, "a value of '@Range' is a number or a text in quotes");
     }
   }
   out.choices = choices;
@@ -179,8 +189,7 @@ void readRange(NoteReader& r, Annotations& out) {
     }
   }
   if (next == 1 && !hasMost) {
-    r.warn(r.node(), "this '@Range' has one number, and needs a least and a greatest one",
-           "write '@Range(min=0, max=10)'");
+    r.warn(r.node(), "this '@Range' has one number, and needs a least and a greatest one");
     return;
   }
   if (hasMost && note.max < note.min) {
@@ -198,17 +207,21 @@ void readGroup(NoteReader& r, Annotations& out) {
     if (r.tree().kind(a) == NodeKind::NamedArg) continue;
     if (const auto s = r.word(a)) {
       out.group.path.push_back(*s);
+      const std::string text = "\"" + *s + "\"";
+      if (!r.string(a)) {
+        r.warn(a, "the name of a group stands in quotes", "write " + text, text);
+      }
     } else if (const auto n = r.number(a)) {
       out.group.order = *n;
     } else {
-      r.warn(a, "'@Group' takes names of groups and a number", "");
+      r.warn(a, "'@Group' takes names of groups and a number");
     }
   }
 }
 
 void readOrder(NoteReader& r, Annotations& out) {
   if (r.arguments().size() == 1) out.order = r.number(r.arguments()[0]);
-  if (!out.order) r.warn(r.node(), "'@Order' takes one number", "");
+  if (!out.order) r.warn(r.node(), "'@Order' takes one number");
 }
 
 void readHidden(NoteReader& r, Annotations& out) {
@@ -245,8 +258,7 @@ void readPreferredSize(NoteReader& r, Annotations& out) {
   if (good) {
     out.preferredSize = size;
   } else {
-    r.warn(r.node(), "'@PreferredSize' takes three sizes of zero or more",
-           "write '@PreferredSize(4, 3, 0)'; 0 means any size");
+    r.warn(r.node(), "'@PreferredSize' takes three sizes, of which 0 is any size");
   }
 }
 
@@ -296,7 +308,7 @@ void readHandle(NoteReader& r, Annotations& out) {
       warnOfHandleWords(r, a);
       handle.emplace_back(r.tree().text(a), handleText(r, r.tree().child(a, 0)));
     } else {
-      r.warn(a, "each argument of '@Handle' has a name", "write '@Handle(shape = Wall, axis = y)'");
+      r.warn(a, "each argument of '@Handle' has a name");
     }
   }
   out.handles.push_back(std::move(handle));
@@ -305,6 +317,8 @@ void readHandle(NoteReader& r, Annotations& out) {
 struct NoteKind {
   std::string_view name;
   void (*read)(NoteReader&, Annotations&);
+  /// How it is written; empty where it takes nothing.
+  std::string_view example = "";
   /// What arguments may be called, with blanks between; "*" where the reader looks at the names.
   std::string_view names = "";
 };
@@ -312,27 +326,29 @@ struct NoteKind {
 constexpr NoteKind kNotes[] = {
     {"Angle", [](NoteReader&, Annotations& o) { o.unit = UnitNote::Angle; }},
     {"Color", [](NoteReader&, Annotations& o) { o.color = true; }},
-    {"Description", [](NoteReader& r, Annotations& o) { o.description = r.oneString(); }},
+    {"Description", [](NoteReader& r, Annotations& o) { o.description = r.oneString(); },
+     "@Description(\"Metres to the eaves\")"},
     {"Directory", [](NoteReader&, Annotations& o) { o.file = FileNote::Directory; }},
-    {"DisplayName", [](NoteReader& r, Annotations& o) { o.displayName = r.oneString(); }},
+    {"DisplayName", [](NoteReader& r, Annotations& o) { o.displayName = r.oneString(); },
+     "@DisplayName(\"Height\")"},
     {"Distance", [](NoteReader&, Annotations& o) { o.unit = UnitNote::Distance; }},
-    {"Enum", readEnum, "restricted valuesAttr"},
+    {"Enum", readEnum, "@Enum(\"brick\", \"stone\")", "restricted valuesAttr"},
     {"File", readFile},
-    {"Group", readGroup},
-    {"Handle", readHandle, "*"},
+    {"Group", readGroup, "@Group(\"Building\", 1)"},
+    {"Handle", readHandle, "@Handle(shape = Wall, axis = y)", "*"},
     {"Hidden", readHidden},
     {"InLine", [](NoteReader&, Annotations& o) { o.input = InputNote::Line; }},
     {"InMesh", [](NoteReader&, Annotations& o) { o.input = InputNote::Mesh; }},
     {"InPoint", [](NoteReader&, Annotations& o) { o.input = InputNote::Point; }},
     {"InPointCloud", [](NoteReader&, Annotations& o) { o.input = InputNote::PointCloud; }},
     {"InPolygon", [](NoteReader&, Annotations& o) { o.input = InputNote::Polygon; }},
-    {"Label", [](NoteReader& r, Annotations& o) { o.label = r.oneString(); }},
+    {"Label", [](NoteReader& r, Annotations& o) { o.label = r.oneString(); }, "@Label(\"window\")"},
     {"MaterialFile", [](NoteReader&, Annotations& o) { o.file = FileNote::MaterialFile; }},
-    {"Order", readOrder},
-    {"Out", readOut, "granularity"},
+    {"Order", readOrder, "@Order(1)"},
+    {"Out", readOut, "", "granularity"},
     {"Percent", [](NoteReader&, Annotations& o) { o.unit = UnitNote::Percent; }},
-    {"PreferredSize", readPreferredSize},
-    {"Range", readRange, kRangeNames},
+    {"PreferredSize", readPreferredSize, "@PreferredSize(4, 3, 0)"},
+    {"Range", readRange, "@Range(min=0, max=10)", kRangeNames},
     {"RuleFileDescription", [](NoteReader&, Annotations&) {}},
     {"StartRule", [](NoteReader&, Annotations& o) { o.startRule = true; }},
 };
@@ -376,7 +392,7 @@ Annotations readAnnotations(const Tree& tree, NodeId list, GroupNote& group,
     // Of arguments that could not be read only a part is there, which must not bind anyone.
     if (tree.has(id, kFlagBroken)) continue;
     if (known != std::end(kNotes)) {
-      NoteReader reader(tree, id, diagnostics);
+      NoteReader reader(tree, id, diagnostics, known->example);
       warnOfNames(reader, *known);
       known->read(reader, out);
     } else if (diagnostics) {

@@ -105,6 +105,18 @@ void Analysis::checkWrittenSizes(NodeId block, const OpSpec& op) {
   }
 }
 
+// '50 is fifty times the size. Nobody writes so much by intent.
+void Analysis::checkShare(NodeId node) {
+  constexpr double kLeast = 10, kMost = 100;
+  const Value v = writtenValue(node);
+  if (v.type != ValueType::Float || !(v.number >= kLeast)) return;
+  const std::string number = shortestText(v.number);
+  warning("bad-argument", tree().span(node),
+          "'" + number + " is " + number + " times the size of the scope",
+          v.number <= kMost ? "write '" + shortestText(v.number / kMost) + " for " + number + " %"
+                            : "write " + number + " for metres");
+}
+
 bool Analysis::hasTerm(NodeId node, std::string_view name) const {
   if (node == kNoNode) return false;
   const Resolution& r = program_.modules[body_.module].at(node);
@@ -196,6 +208,7 @@ void Analysis::checkWrittenValues(ModuleId firstModule) {
     body_ = {};
     body_.module = m;
     for (NodeId node = 1; node < tree().size(); ++node) {
+      if (tree().kind(node) == NodeKind::Relative) checkShare(node);
       const Resolution& r = module().at(node);
       if (r.kind == RefKind::Selector && r.spec.term) {
         const auto order = module().namedArguments.find(node);
