@@ -290,6 +290,19 @@ void Analysis::infer(ModuleId main) {
 
 // --- Duplicates, which types decide ---
 
+std::string Analysis::placeText(Span at) const {
+  const LineColumn begin = sources_.locate(at.file, at.begin);
+  return sources_.path(at.file) + ':' + std::to_string(begin.line) + ':' +
+         std::to_string(begin.column);
+}
+
+std::string Analysis::firstPlaceText(const Tree& t, NodeKind kind, std::string_view name) const {
+  for (const NodeId id : t.children(t.root())) {
+    if (t.kind(id) == kind && t.text(id) == name) return placeText(nameSpan(t, id));
+  }
+  return {};
+}
+
 template <class Info>
 void Analysis::reportOverloads(const std::vector<std::vector<uint32_t>>& sets,
                                const std::vector<Info>& infos, const char* code) {
@@ -308,7 +321,8 @@ void Analysis::reportOverloads(const std::vector<std::vector<uint32_t>>& sets,
         if (a.paramCount != b.paramCount || differ(a, b)) continue;
         error(code, nameSpan(program_.tree(b.module), b.node),
               quote(b.name) + " is defined already with " + std::to_string(b.paramCount) +
-                  (b.paramCount == 1 ? " parameter" : " parameters"),
+                  (b.paramCount == 1 ? " parameter" : " parameters") + ", at " +
+                  placeText(nameSpan(program_.tree(a.module), a.node)),
               "rename one of the two");
         break;
       }

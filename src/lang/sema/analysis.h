@@ -412,6 +412,11 @@ class Analysis {
   template <class Info>
   void reportOverloads(const std::vector<std::vector<uint32_t>>& sets,
                        const std::vector<Info>& infos, const char* code);
+  void tellOfImport(const Diagnostics& ofFile);
+  /// "town.cga:3:6", for messages about a second one.
+  std::string placeText(Span at) const;
+  /// The first declaration of a kind and a name in a file.
+  std::string firstPlaceText(const Tree& t, NodeKind kind, std::string_view name) const;
   void reportDuplicates(ModuleId firstModule);
   void reportOverrideTypes();
   void chooseStartRule();

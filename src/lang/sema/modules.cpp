@@ -116,7 +116,9 @@ void Analysis::indexUnit(uint32_t unit) {
         style = t.text(id);
         if (index.styleNumbers.find(style) != index.styleNumbers.end()) {
           error("duplicate-style", nameSpan(t, id),
-                "the style " + quote(style) + " is there already", "give it another name");
+                "the style " + quote(style) + " is there already, at " +
+                    firstPlaceText(t, NodeKind::Style, style),
+                "give it another name");
           break;
         }
         const NodeId base = t.child(id, 1);
@@ -127,7 +129,9 @@ void Analysis::indexUnit(uint32_t unit) {
       case NodeKind::Import:
         if (!index.importNames.insert(t.text(id)).second) {
           error("duplicate-import", nameSpan(t, id),
-                "another import has the name " + quote(t.text(id)), "give it another name");
+                quote(t.text(id)) + " is an import already, at " +
+                    firstPlaceText(t, NodeKind::Import, t.text(id)),
+                "give it another name");
           break;
         }
         index.imports.push_back(declaration);
@@ -374,7 +378,8 @@ void Analysis::declareRules(ModuleId module, const StyleRanks& ranks) {
     const std::vector<RuleId>& same = scope.rules[name];
     if (t.has(d.node, kFlagExtension) && same.size() > 1) {
       error("duplicate-rule", nameSpan(t, d.node),
-            "an extension rule cannot have overloads, and " + quote(name) + " has some",
+            "an extension rule cannot have overloads, and " + quote(name) + " has one at " +
+                placeText(nameSpan(t, program_.rules[same.front()].node)),
             "give them other names");
     }
   }
@@ -421,7 +426,9 @@ void Analysis::declareFunctions(ModuleId module, const StyleRanks& ranks) {
     scope.functions[name].push_back(f.id);
     if (f.paramCount == 0 && scope.attributes.count(name) != 0) {
       error("duplicate-name", nameSpan(t, d.node),
-            quote(name) + " is an attribute or constant already", "rename one of the two");
+            quote(name) + " is an attribute or constant already, at " +
+                placeText(nameSpan(t, program_.attributes[scope.attributes.at(name)].node)),
+            "rename one of the two");
     }
     program_.functions.push_back(std::move(f));
   }
@@ -446,7 +453,9 @@ void Analysis::declareAttributes(ModuleId module, const StyleRanks& ranks) {
     const size_t rank = ranks.of(d.style);
     if (rank == ranks.none() || rank > known[name].front().first) continue;
     if (scope.attributes.count(name) != 0) {
-      error("duplicate-name", nameSpan(t, d.node), quote(name) + " is declared already",
+      error("duplicate-name", nameSpan(t, d.node),
+            quote(name) + " is declared already, at " +
+                placeText(nameSpan(t, program_.attributes[scope.attributes.at(name)].node)),
             "rename one of the two");
       continue;
     }
