@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: The Gable authors
 
 #include <algorithm>
+#include <set>
+#include <string>
 
 #include "answer.h"
 #include "commands.h"
@@ -9,6 +11,7 @@
 
 int runCheck(const CheckArguments& arguments) {
   gable::DiagnosticList all;
+  std::set<std::string> told;
   bool missing = false;
   std::string programs;
   gable::JsonWriter json(programs);
@@ -23,7 +26,10 @@ int runCheck(const CheckArguments& arguments) {
       json.beginObject().key("file").value(path);
       json.key("text").value(rules.disassembly()).endObject();
     }
-    all.insert(all.end(), rules.diagnostics().begin(), rules.diagnostics().end());
+    // What several files import is told once.
+    for (const gable::Diagnostic& d : rules.diagnostics()) {
+      if (told.insert(d.rendered).second) all.push_back(d);
+    }
   }
   json.endArray();
   if (arguments.disassemble) answer().member("disassembly", programs);

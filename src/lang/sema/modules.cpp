@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "base/work.h"
 #include "lang/parser.h"
@@ -215,6 +216,21 @@ void Analysis::reportImport(const Error& why, const std::string& path, Span from
           nearest.empty() ? why.hint : "did you mean " + quote(nearest) + "?");
 }
 
+// What is no mistake in a file of others is told once, where it stands first.
+void Analysis::tellOfImport(const Diagnostics& ofFile) {
+  constexpr std::string_view kOnce = "choice-not-first";
+  const auto isOnce = [&](const Diagnostics::Entry& d) { return d.code == kOnce; };
+  const auto count = std::count_if(ofFile.all().begin(), ofFile.all().end(), isOnce);
+  bool told = false;
+  for (Diagnostics::Entry d : ofFile.all()) {
+    if (isOnce(d) && std::exchange(told, true)) continue;
+    if (isOnce(d) && count > 1) {
+      d.message += "; it is the first of " + std::to_string(count) + " in this imported file";
+    }
+    diagnostics_.add(std::move(d));
+  }
+}
+
 uint32_t Analysis::loadUnit(const std::string& path, Span from, uint32_t importerUnit,
                             std::vector<uint32_t>& open) {
   if (!loader_) {
@@ -250,7 +266,9 @@ uint32_t Analysis::loadUnit(const std::string& path, Span from, uint32_t importe
   }
   const auto unit = static_cast<uint32_t>(program_.units.size());
   const uint32_t id = sources_.add(file->path, std::move(file->text));
-  TreeRef t = loader_->parse(sources_, id, diagnostics_);
+  Diagnostics ofFile;
+  TreeRef t = loader_->parse(sources_, id, ofFile);
+  tellOfImport(ofFile);
   unitByPath_.emplace(file->path, unit);
   program_.units.push_back({file->path, id, std::move(t)});
   units_.emplace_back();
