@@ -20,9 +20,8 @@
 #include "city/plan.h"
 #include "engine/city_rules.h"
 #include "engine/footprint.h"
-#include "engine/missing_files.h"
-#include "engine/told_once.h"
 #include "engine/outside_values.h"
+#include "engine/told_once.h"
 #include "engine/unused_properties.h"
 #include "shape/edge_attributes.h"
 
@@ -51,8 +50,8 @@ std::vector<InitialShape> initialShapes(const Shapes::Impl& shapes, const Rules:
     s.name = f.name;
     s.mesh = f.mesh;
     s.origin = f.origin;
-    s.feature = f.feature;
     s.identity = f.id;
+    s.feature = f.feature;
     s.faceTags = f.faceTags;
     s.streetWidths = f.streetWidths;
     s.materials = f.materials;
@@ -284,6 +283,27 @@ DiagnosticList unclearStarts(const std::map<std::string, size_t>& starts, bool o
   return out;
 }
 
+// Several rules of the file begin, and nobody has said which: the first does.
+DiagnosticList severalStarts(const Rules::Impl& rules, const DeriveSettings& settings,
+                             const std::map<std::string, size_t>& starts, bool ofMap) {
+  if (settings.startRule || ofMap || !starts.empty()) return {};
+  std::vector<const RuleCode*> marked;
+  for (const RuleCode& r : rules.program.rules) {
+    const bool own = r.qualifiedName.find('.') == std::string::npos;
+    if (r.startRule && own && r.parameters.empty()) marked.push_back(&r);
+  }
+  if (marked.size() < 2) return {};
+  return {diagnosticOf({Severity::Note,
+                        "several-start-rules",
+                        marked[1]->span,
+                        std::to_string(marked.size()) + " rules have @StartRule; the first is '" +
+                            marked[0]->qualifiedName + "', which begins",
+                        "--start " + marked[1]->qualifiedName + " begins with this one",
+                        {},
+                        {}},
+                       rules.sources)};
+}
+
 void checkWholeSeeds(const DeriveSettings& settings, DiagnosticList& wrong) {
   std::vector<double> seeds = {settings.seed};
   for (const auto& [index, seed] : settings.shapeSeeds) seeds.push_back(seed);
@@ -477,7 +497,8 @@ std::shared_ptr<Model::Impl> derived(const Rules& rules, const Shapes& shapes,
   impl->diagnostics.insert(impl->diagnostics.end(), made.begin(), made.end());
   for (const DiagnosticList& some :
        {outsideValues(initial, r), unusedProperties(shapes.impl(), r),
-        cityRuleNotes(shapes.impl(), r), unclearStarts(starts, shapes.impl().ofMap, r.program)}) {
+        cityRuleNotes(shapes.impl(), r), unclearStarts(starts, shapes.impl().ofMap, r.program),
+        severalStarts(r, settings, starts, shapes.impl().ofMap)}) {
     impl->diagnostics.insert(impl->diagnostics.end(), some.begin(), some.end());
   }
   makeSound(*impl, options);
