@@ -253,6 +253,7 @@ int writeModel(const gable::Model& model, const std::string& path,
   }();
   print(written.diagnostics);
   if (!written.ok) return statusOf(written.diagnostics, kExitFile);
+  figures.after = written.diagnostics;
   for (const std::string& file : written.models) answer().wrote(file);
   figures.deriveSeconds = model.deriveSeconds();
   figures.writeSeconds = secondsNow() - begin;

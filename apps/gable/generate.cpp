@@ -71,6 +71,9 @@ int generateOnce(const GenerateArguments& arguments) {
   tellEmpty(model, inputs);
 
   gable::RunFigures figures;
+  figures.before = inputs.rules.diagnostics();
+  const gable::DiagnosticList& ofShapes = inputs.shapes.diagnostics();
+  figures.before.insert(figures.before.end(), ofShapes.begin(), ofShapes.end());
   if (const int status = writeModel(model, arguments.output, write, figures)) return status;
 
   if (const int status = writeReportTables(model, arguments.reports)) return status;

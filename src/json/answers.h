@@ -29,6 +29,8 @@ struct RunFigures {
   /// Of the file, and what sharing saves in it; see WriteResult.
   std::optional<uint64_t> fileBytes, savedBytes;
   std::optional<WriteResult::Atlas> atlas;
+  /// What was told before the derivation, of the rules and the shapes, and what after it.
+  DiagnosticList before, after;
 };
 /// Counts, bounds, reports, prints, diagnostics and figures as one object.
 std::string statisticsJson(const Model& model, const RunFigures& figures = {});

@@ -138,7 +138,11 @@ std::string statisticsJson(const Model& model, const RunFigures& figures) {
   JsonWriter json(out, 1);
   json.beginObject();
   writeStatistics(json, model, figures);
-  json.key("diagnostics").raw(diagnosticsJson(model.diagnostics()));
+  DiagnosticList all = figures.before;
+  for (const DiagnosticList& more : {model.diagnostics(), figures.after}) {
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  json.key("diagnostics").raw(diagnosticsJson(all));
   json.endObject();
   return out + "\n";
 }
