@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "answer.h"
 #include "commands.h"
@@ -19,8 +22,8 @@ using Annotations = std::vector<gable::AttributeInfo::Annotation>;
 constexpr uint64_t kMostShapes = 1000;
 constexpr uint64_t kMostSteps = 1'000'000;
 
-std::vector<gable::NamedValue> valuesOf(Inputs& inputs, bool all) {
-  inputs.settings.importedAttributes = all;
+std::vector<gable::NamedValue> valuesOf(Inputs& inputs) {
+  inputs.settings.importedAttributes = true;
   inputs.settings.limits.shapes = std::min(inputs.settings.limits.shapes, kMostShapes);
   inputs.settings.limits.steps = std::min(inputs.settings.limits.steps, kMostSteps);
   const gable::Model model = gable::derive(inputs.rules, inputs.shapes, inputs.settings);
@@ -92,21 +95,40 @@ void printStartRules(const gable::Rules& rules, bool all) {
   printRest(rest);
 }
 
+// The file's own first, then those of imports by file. What is imported twice is listed once: under
+// the name of the first import.
+template <class Info, class FileOf>
+std::vector<const Info*> byFile(const std::vector<Info>& all, FileOf fileOf) {
+  std::vector<const Info*> out;
+  std::set<std::pair<std::string, std::string>> known;
+  for (const Info& one : all) {
+    const std::string last = one.name.substr(one.name.rfind('.') + 1);
+    if (known.emplace(fileOf(one), last).second) out.push_back(&one);
+  }
+  std::stable_sort(out.begin(), out.end(), [&](const Info* a, const Info* b) {
+    const bool ownA = !isImported(a->name), ownB = !isImported(b->name);
+    return ownA != ownB ? ownA : !ownA && fileOf(*a) < fileOf(*b);
+  });
+  return out;
+}
+
 // What --start takes besides, and what gable trace may be asked for.
 void printOtherRules(const gable::Rules& rules) {
   const std::string first = rules.startRule().value_or(std::string());
-  std::vector<const gable::RuleInfo*> others;
-  const std::vector<gable::RuleInfo> all = rules.rules();
-  for (const gable::RuleInfo& r : all) {
+  std::vector<gable::RuleInfo> others;
+  for (const gable::RuleInfo& r : rules.rules()) {
     const bool starts = r.name == first || (r.start && r.parameters == 0);
-    if (!starts) others.push_back(&r);
+    if (!starts) others.push_back(r);
   }
   title("other rules", !others.empty());
-  for (const gable::RuleInfo* r : others) {
+  const auto placeOf = [](const gable::RuleInfo& r) {
+    return r.file + ":" + std::to_string(r.line);
+  };
+  for (const gable::RuleInfo* r : byFile(others, placeOf)) {
     const std::string count = r->parameters == 0   ? ""
                               : r->parameters == 1 ? "1 parameter"
                                                    : std::to_string(r->parameters) + " parameters";
-    row(r->name, r->file + ":" + std::to_string(r->line), count);
+    row(r->name, placeOf(*r), count);
   }
 }
 
@@ -116,14 +138,17 @@ void printAttributes(const gable::Rules& rules, const std::vector<gable::NamedVa
   std::map<std::string_view, const gable::RuleValue*> known;
   for (const gable::NamedValue& v : values) known.emplace(v.name, &v.value);
   size_t rest = 0;
-  for (const gable::AttributeInfo& a : rules.attributes()) {
-    if (!all && isImported(a.name)) {
-      ++rest;
-      continue;
+  for (const bool imported : {false, true}) {
+    for (const gable::AttributeInfo& a : rules.attributes()) {
+      if (isImported(a.name) != imported) continue;
+      if (!all && imported) {
+        ++rest;
+        continue;
+      }
+      const auto value = known.find(a.name);
+      row(a.name, a.type + (value == known.end() ? "" : " = " + textOf(*value->second)),
+          textOf(a.annotations));
     }
-    const auto value = known.find(a.name);
-    row(a.name, a.type + (value == known.end() ? "" : " = " + textOf(*value->second)),
-        textOf(a.annotations));
   }
   printRest(rest);
 }
@@ -158,7 +183,7 @@ int runInfo(const InfoArguments& arguments) {
     if (status == kExitWrong) addMembers(inputs.rules, {});
     return status;
   }
-  const std::vector<gable::NamedValue> values = valuesOf(inputs, arguments.all || terminal().json);
+  const std::vector<gable::NamedValue> values = valuesOf(inputs);
   addMembers(inputs.rules, values);
   if (!terminal().json) printInfo(inputs.rules, values, arguments.all);
   return kExitDone;

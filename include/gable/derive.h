@@ -36,7 +36,7 @@ struct DeriveSettings {
   /// With `trace`: the model also has the shapes that rules replace, each as they got it, so that a
   /// derivation can be shown step by step.
   bool traceShapes = false;
-  /// Model::attributes gives those of imported files as well; leaves and files do not.
+  /// Model::attributes gives hidden ones and those of imports as well; leaves and files do not.
   bool importedAttributes = false;
   /// Threads; absent: one a processor.
   std::optional<int> jobs;

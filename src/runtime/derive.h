@@ -141,7 +141,7 @@ struct DeriveOptions {
   bool traceShapes = false;
   /// With `trace`: what of it is kept.
   TraceFilter traceFilter;
-  /// Evaluate the attributes of imported files as well.
+  /// Evaluate the attributes of imported files as well, and hidden ones.
   bool importedAttributes = false;
   int jobs = 1;
   Limits limits;

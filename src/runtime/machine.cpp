@@ -293,7 +293,7 @@ std::vector<EvaluatedAttribute> Machine::attributeValues() {
   std::vector<EvaluatedAttribute> out;
   for (uint32_t a = 0; a < program_.attributes.size(); ++a) {
     const AttributeCode& code = program_.attributes[a];
-    if (code.constant || !shownAttributes_[a]) continue;
+    if (code.constant || !(shownAttributes_[a] || options().importedAttributes)) continue;
     if (code.name.find('.') != std::string::npos) {
       // Those of a call that gives an import values of its own have the names of the import's.
       const bool own =
