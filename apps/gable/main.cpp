@@ -104,7 +104,9 @@ void addLookOptions(CLI::App* app, RenderArguments& a) {
 }
 
 void addPictureOptions(CLI::App* app, RenderArguments& a) {
-  app->add_option("--view", a.view, "iso, top, front or street")
+  app->add_option(
+         "--view", a.view,
+         "iso, top (the plan), front (the elevation: both in parallel projection) or street")
       ->check(CLI::IsMember(gable::viewNames()));
   addLookOptions(app, a);
   app->add_option("--pitch", a.pitch, "Degrees that the camera of iso looks down (default 38)")
@@ -252,13 +254,13 @@ void addReports(CLI::App* app, ReportArguments& a) {
                   "Write one row for each initial shape, with its id and a column for each report");
 }
 
-void addGenerate(CLI::App& app, GenerateArguments& a, int& status) {
-  auto* generate = app.add_subcommand("generate", "Derive rules and write a model");
 void addStrict(CLI::App* app, bool& strict) {
   app->add_flag("--strict", strict,
                 "Exit with status 1 where there are warnings; the model is written all the same");
 }
 
+void addGenerate(CLI::App& app, GenerateArguments& a, int& status) {
+  auto* generate = app.add_subcommand("generate", "Derive rules and write a model");
   generate->add_option("rules", a.derive.rules, "The rule file or package")->required();
   addDeriveOptions(generate, a.derive);
   generate->add_option("-o,--output", a.output, "The model: " + modelEndings())->required();
@@ -342,9 +344,9 @@ void addCity(CLI::App& app, CityArguments& a, int& status) {
                    "Write the ground to a file as GeoJSON: a polygon a piece, its surface");
   addReports(city, a.reports);
   city->add_option("--stats", a.stats, "Write areas and counts as JSON to a file, or - for stdout");
+  addStrict(city, a.strict);
   city->add_option("--set", a.derive.set,
                    "An attribute's value: NAME=VALUE; may be repeated. Names of imported files\n"
-  addStrict(city, a.strict);
                    "have the import's before them: houses.roof_shape; gable info --all lists them")
       ->type_size(1)
       ->expected(1)

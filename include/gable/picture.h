@@ -34,8 +34,8 @@ struct WriteResult;
 using Triple = std::array<double, 3>;
 
 /// Where a picture is taken from. Iso: from above, with two fronts and the roofs in sight. Top: the
-/// plan, north up. Front: level, from the side of the main front. Street: the eye of somebody who
-/// stands outside.
+/// plan, north up. Front: the elevation of the main front, in parallel projection. Street: the eye
+/// of somebody who stands outside.
 enum class View : uint8_t { Iso, Top, Front, Street };
 
 /// How a picture is made. Photo: by light. Clay: the same of one pale matter. Blueprint: white

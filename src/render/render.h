@@ -53,7 +53,7 @@ enum class PictureView : uint8_t {
   Iso,
   /// The plan: north up, no perspective.
   Top,
-  /// Level, from the side of the main front, verticals upright.
+  /// The elevation of the main front: level, no perspective.
   Front,
   /// The eye of somebody who stands outside in the street, verticals upright.
   Street,

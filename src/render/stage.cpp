@@ -159,7 +159,14 @@ void makeGround(const Stage& stage, const Ray& ray, float t, bool sharp, Surface
 /// The endless ground, before what is found at `distance`.
 bool meetGround(const Stage& stage, const Ray& ray, bool found, bool sharp, float& distance,
                 Surface& surface) {
-  if (!stage.ground || stage.block || ray.direction.y >= 0) return false;
+  if (!stage.ground || stage.block) return false;
+  // Of an elevation the ground is what lies below its line.
+  if (sharp && stage.parallel && ray.origin.y < stage.groundHeight) {
+    makeGround(stage, ray, ray.from, false, surface);
+    distance = ray.from;
+    return true;
+  }
+  if (ray.direction.y >= 0) return false;
   const float t = (stage.groundHeight - ray.origin.y) / ray.direction.y;
   // What lies on the ground, within 3 mm, wins over it.
   const float lead = 0.003f / -ray.direction.y;

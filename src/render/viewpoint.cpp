@@ -24,6 +24,8 @@ constexpr double kIsoFill = 0.77, kIsoHeightFill = 0.9, kFrontFill = 0.77, kTopF
 constexpr double kIsoPitch = 38;
 /// Levels of the front view: where the ground meets the subject and where its top may reach.
 constexpr double kGroundLine = 0.20, kTopLine = 0.78;
+/// What the ground takes of the room that an elevation leaves, and the most of the picture.
+constexpr double kGroundShare = 0.45, kHighestGround = 0.38;
 
 struct Extents {
   double least = kInfinity, most = -kInfinity;
@@ -56,6 +58,27 @@ void frameParallel(Camera& camera, const std::vector<Vec3f>& points, double aspe
   camera.parallel = true;
   camera.halfWidth = std::max({x.size(), y.size() * aspect, 0.1}) / (2 * kTopFill);
   camera.eye = camera.right * x.middle() + camera.up * y.middle() +
+               camera.forward * (z.least - std::max(10.0, z.size()));
+}
+
+/// The same level, on a ground line: an elevation. What lies deeper is hidden by the ground.
+void frameElevation(Camera& camera, const Subject& subject, double aspect) {
+  Extents x, z;
+  double top = subject.groundHeight;
+  for (const Vec3f& p : subject.points) {
+    const InView v = inView(camera, p);
+    x.include(v.right);
+    z.include(v.ahead);
+    top = std::max(top, v.up);
+  }
+  const double height = top - subject.groundHeight;
+  camera.parallel = true;
+  camera.halfWidth =
+      std::max({x.size() / kFrontFill, height * aspect / (kTopLine - kGroundLine), 0.1}) / 2;
+  // A low wide subject has more below it, so that it does not lie at the foot of an empty picture.
+  const double whole = 2 * camera.halfWidth / aspect;
+  camera.horizon = std::clamp((1 - height / whole) * kGroundShare, kGroundLine, kHighestGround);
+  camera.eye = camera.right * x.middle() + Vec3{0, subject.groundHeight, 0} +
                camera.forward * (z.least - std::max(10.0, z.size()));
 }
 
@@ -163,15 +186,8 @@ Camera standardCamera(const Subject& subject, const RenderOptions& options, cons
       return camera;
     }
     case PictureView::Front: {
-      Camera camera = cameraTowards(toFront - 30, 0);
-      camera.halfWidth = given > 0 ? given : lens(40);
-      // A park or a town is seen from a hill, a house from a ladder.
-      const Vec3 size = subject.world.subject.size();
-      const double hill = std::min(0.06 * std::max(size.x, size.z), 60.0);
-      const double height =
-          subject.groundHeight + std::max(std::clamp(0.42 * tall, 1.6, 8.0), hill);
-      frameLevel(camera, subject, aspect, height);
-      keepAboveHill(camera, subject);
+      Camera camera = cameraTowards(toFront, 0);
+      frameElevation(camera, subject, aspect);
       return camera;
     }
     case PictureView::Street: {
@@ -231,7 +247,8 @@ Camera chooseCamera(const Subject& subject, const RenderOptions& options, const 
   } else {
     camera = standardCamera(subject, options, towardsSun, aspect);
     if (camera.parallel) {
-      camera.eye = {target.x, camera.eye.y, target.z};
+      camera.eye = target + camera.forward * dot(camera.forward, camera.eye - target);
+      camera.horizon = 0.5;
       return camera;
     }
     camera.horizon = 0.5;

@@ -413,9 +413,13 @@ class Builder {
   }
 
   /// The height below which a hundredth of all footprint area begins, unless that lies far above
-  /// the lowest point: then the scene has terrain, and its lowest point counts.
+  /// the lowest point: then the scene has terrain, and its lowest point counts. Single twigs, posts
+  /// and footings that reach below the lowest initial shape are no terrain.
   double foot() {
+    constexpr double kLeastTerrain = 1;
     if (feet_.empty()) return world_.bounds.min.y;
+    const double plane =
+        scene_.place.empty() ? -kFarthest : scene_.place.min.y - world_.origin.y - 0.1;
     double total = 0, sum = 0;
     for (const auto& [y, area] : feet_) total += area;
     // Few lie so low: from a heap they come in order without the others.
@@ -424,14 +428,16 @@ class Builder {
       return b < a;
     };
     std::make_heap(feet_.begin(), feet_.end(), isHigher);
-    const double lowest = feet_[0].first;
+    const double first = feet_[0].first;
+    std::optional<double> lowest;
     for (auto end = feet_.end(); end != feet_.begin(); --end) {
       std::pop_heap(feet_.begin(), end, isHigher);
       const auto& [y, area] = *(end - 1);
       sum += area;
-      if (sum >= 0.01 * total) return y - lowest < 1.5 ? y : lowest;
+      if (!lowest && (y >= plane || sum >= kLeastTerrain)) lowest = y;
+      if (lowest && sum >= 0.01 * total) return y - *lowest < 1.5 ? y : *lowest;
     }
-    return lowest;
+    return lowest.value_or(first);
   }
 
   const Scene& scene_;
