@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "math/trig.h"
 #include "render/sampler.h"
 #include "render/test_scenes.h"
 #include "render/tone.h"
@@ -189,6 +190,34 @@ TEST(Viewpoint, frontEyeIsAboveItsHill) {
     Hit hit;
     EXPECT_FALSE(s.tracer.intersect(up, hit));
   }
+}
+
+TEST(Viewpoint, frontIsAnElevation) {
+  const Set s(boxScene({20, 10, 8}, 30));
+  RenderOptions o;
+  o.view = PictureView::Front;
+  const Camera c = chooseCamera(s.subject, o, towardsSun(38, 225));
+  EXPECT_TRUE(c.parallel);
+  EXPECT_NEAR(c.forward.x, -sinDeg(150), 1e-3);
+  EXPECT_NEAR(c.forward.z, cosDeg(150), 1e-3);
+  // The wall of 20 metres is as wide as on paper, and stands on the ground line.
+  const Reach r = reachOf(c, s.subject.points, 16.0 / 9);
+  EXPECT_NEAR((r.right - r.left) * 2 * c.halfWidth, 20, 0.01);
+  EXPECT_NEAR(r.low, c.horizon, 1e-6);
+}
+
+TEST(Viewpoint, twigsThatReachDeepAreNoTerrain) {
+  SceneMaker m;
+  const uint32_t grey = m.material("#909090");
+  m.box({0, 0, 0}, {20, 9, 10}, grey);
+  m.box({30, -4, 0}, {0.1, 12, 0.1}, grey);
+  EXPECT_NEAR(Set(m.finish()).world.footHeight, 0, 1e-6);
+  // A cellar does.
+  SceneMaker deep;
+  const uint32_t stone = deep.material("#909090");
+  deep.box({0, 0, 0}, {20, 9, 10}, stone);
+  deep.box({30, -4, 0}, {3, 4, 3}, stone);
+  EXPECT_NEAR(Set(deep.finish()).world.footHeight, -4, 1e-6);
 }
 
 TEST(Viewpoint, frontFollowsTurnedWalls) {

@@ -182,6 +182,31 @@ TEST(GeoJson, wrongFeaturesAreNamedAndTheOthersRead) {
   EXPECT_EQ(all[1].code, "geojson-empty");
   EXPECT_EQ(all[2].code, "geojson-holes");
   EXPECT_EQ(all[3].code, "geojson-coordinates");
+  EXPECT_NE(all[3].message.find("feature 4 of 'town.geojson' is left out"), std::string::npos);
+  EXPECT_FALSE(r->diagnostics.hasErrors());
+  EXPECT_EQ(r->shapes[1].name, "feature 7");
+  EXPECT_EQ(r->shapes[1].feature, 7u);
+}
+
+TEST(GeoJson, ofPartsTheOthersStay) {
+  const std::string bow = "[[7.42,43.73],[7.421,43.731],[7.421,43.73],[7.42,43.731],[7.42,43.73]]";
+  const std::string two =
+      R"({"type":"MultiPolygon","coordinates":[[)" + bow + "],[" + std::string(kRing) + "]]}";
+  auto r = readGeoJsonShapes(collection(feature(two)), "town.geojson");
+  ASSERT_TRUE(r.ok());
+  EXPECT_EQ(r->shapes.size(), 1u);
+  ASSERT_EQ(r->diagnostics.all().size(), 1u);
+  EXPECT_EQ(r->diagnostics.all()[0].message.find("a part of feature 1 of "), 0u);
+}
+
+TEST(GeoJson, whereNothingIsLeftTheReasonsAreToldAsWell) {
+  const std::string bow = "[[7.42,43.73],[7.421,43.731],[7.421,43.73],[7.42,43.731],[7.42,43.73]]";
+  auto r = readGeoJsonShapes(collection(feature(polygon(bow))), "town.geojson");
+  ASSERT_TRUE(r.ok());
+  EXPECT_TRUE(r->shapes.empty());
+  ASSERT_EQ(r->diagnostics.all().size(), 2u);
+  EXPECT_EQ(r->diagnostics.all()[0].code, "geojson-crossing");
+  EXPECT_EQ(r->diagnostics.all()[1].code, "shapes-empty");
 }
 
 TEST(GeoJson, linesAloneBecomeOneShape) {

@@ -27,8 +27,14 @@ constexpr double kFlat = 1e-9;
 
 bool isPrimitive(const Geometry& g) { return g.kind != GeometryKind::Mesh && !g.uv; }
 
-// Where a direction is named the parts are meant to fit. Else rules may well count on the cut.
+// Where a direction is named the parts are meant to fit. Else rules may well count on the cut, most
+// of all those with a part that takes what the others leave.
 void tellOverflow(const OpCall& call, double whole, bool meantToFit) {
+  const auto& items = call.splitBlock().items;
+  const bool gives = std::any_of(items.begin(), items.end(), [](const SplitItem& item) {
+    return !item.group && item.unit == Unit::Floating;
+  });
+  if (gives && !meantToFit) return;
   const double over = overflowOf(call.splitBlock(), whole);
   if (over <= 1e-9 * (1 + whole)) return;
   const auto rounded = [](double v) { return shortestText(std::round(v * 1000) / 1000); };
