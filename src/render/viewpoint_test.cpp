@@ -211,13 +211,25 @@ TEST(Viewpoint, twigsThatReachDeepAreNoTerrain) {
   const uint32_t grey = m.material("#909090");
   m.box({0, 0, 0}, {20, 9, 10}, grey);
   m.box({30, -4, 0}, {0.1, 12, 0.1}, grey);
-  EXPECT_NEAR(Set(m.finish()).world.footHeight, 0, 1e-6);
+  Scene& lot = m.finish();
+  lot.place.include(Vec3{});
+  EXPECT_NEAR(Set(lot).world.footHeight, 0, 1e-6);
   // A cellar does.
   SceneMaker deep;
   const uint32_t stone = deep.material("#909090");
   deep.box({0, 0, 0}, {20, 9, 10}, stone);
   deep.box({30, -4, 0}, {3, 4, 3}, stone);
-  EXPECT_NEAR(Set(deep.finish()).world.footHeight, -4, 1e-6);
+  Scene& cellar = deep.finish();
+  cellar.place.include(Vec3{});
+  EXPECT_NEAR(Set(cellar).world.footHeight, -4, 1e-6);
+  // And so do posts that stand on the lot.
+  SceneMaker raised;
+  const uint32_t wood = raised.material("#909090");
+  raised.box({0, 4, 0}, {20, 9, 10}, wood);
+  raised.box({1, 0, 1}, {0.1, 4, 0.1}, wood);
+  Scene& posts = raised.finish();
+  posts.place.include(Vec3{});
+  EXPECT_NEAR(Set(posts).world.footHeight, 0, 1e-6);
 }
 
 TEST(Viewpoint, frontFollowsTurnedWalls) {
