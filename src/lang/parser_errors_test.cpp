@@ -134,6 +134,11 @@ TEST(ParserErrors, emptyItemsWarn) {
             "1:17 empty-item (warning)\n1:29 empty-item (warning)\n1:42 empty-item (warning)\n");
 }
 
+TEST(ParserErrors, partsWithoutABodyWarn) {
+  Parsed p("A --> split(x) { 1 : | 2 : B } comp(f) { top : }");
+  EXPECT_EQ(p.problems(), "1:21 empty-item (warning)\n1:47 empty-item (warning)\n");
+}
+
 TEST(ParserErrors, keywordBeforeARuleWarns) {
   Parsed p("attr A --> B const C(x) --> D");
   EXPECT_EQ(p.problems(), "1:6 keyword-on-rule (warning)\n1:20 keyword-on-rule (warning)\n");
@@ -207,7 +212,7 @@ import a(s) : "a.cga" ( h = 3, Roof(x) --> roofHip(x) )
 const c with ( x := 1 y := x ) = comp(f) { front = 1 | all : 30% : 2 else : 3 }[0,1]
 start Lot(p) with ( q := p ) --> extrude(world.up, '1 + ~2) [ t(0,'-0.5,0) A. ]
   split(x, noAdjust) { ~1 : B | { '0.5 : C | 1 : 2 : D }* }* { remainder : E }
-  comp(f) { top =: inline(recompose) F | isTagged("x", e) && !side = imp(h = 2).G(1) | 3 : }
+  comp(f) { top =: inline(recompose) F | isTagged("x", e) && !side = imp(h = 2).G(1) | 3 : H }
   union { A | B } subtract(swap) C
 A --> 30% : B 20.5% : case x .== 2 : C case y : D else : E else : NIL
 style S extends T

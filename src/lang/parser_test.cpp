@@ -242,7 +242,7 @@ s('(1), '(-(0.5)), 0)
 
 TEST(Parser, compItemsHaveSelectorsAndOperators) {
   EXPECT_EQ(body("comp(f, noAlign) { front : A | back = B | top =: C. | 5 : D | world.up = NIL "
-                 "| left || right : E | isTagged(\"x\", e) && !inside : F | all : }"),
+                 "| left || right : E | isTagged(\"x\", e) && !inside : F | all : G }"),
             R"(comp(f, noAlign)
   block
     item front :
@@ -260,6 +260,7 @@ TEST(Parser, compItemsHaveSelectorsAndOperators) {
     item (isTagged("x", e) && !(inside)) :
       F
     item all :
+      G
 )");
 }
 

@@ -44,6 +44,8 @@ constexpr double kWidestPolygon = 0.2;
 // More than once around the Earth.
 constexpr double kFarthest = 1e8;
 constexpr int kDeepestCollection = 16;
+// What has no extent is left out by intent, more often than not.
+constexpr std::string_view kEmpty = "geojson-empty";
 // Of what is left out, so many are named.
 constexpr size_t kMostNamed = 20;
 
@@ -97,7 +99,7 @@ class GeoJsonReader {
     return projection_->forward({p.x < west_ ? p.x + 360 : p.x, p.y});
   }
   void complain(const char* code, const std::string& what, const std::string& hint = {});
-  void leaveOut(const char* code, const std::string& why, const std::string& hint = {});
+  void leaveOut(std::string_view code, const std::string& why, const std::string& hint = {});
   std::string place() const;
   void addAttributes(const JsonValue& properties, ShapeInput& shape);
   void addEdgeValues(const std::string& name, const JsonValue& list, ShapeInput& shape);
@@ -129,7 +131,7 @@ class GeoJsonReader {
   std::map<std::string, size_t> properties_, values_;
   // Of those seen: which the filter lets pass, and which of these are points.
   size_t chosen_ = 0, chosenPoints_ = 0;
-  bool inParts_ = false;
+  bool inParts_ = false, broken_ = false;
   size_t seen_ = 0, faces_ = 0, messages_ = 0, leftOut_ = 0, otherGeometries_ = 0;
   bool hasHeights_ = false;
   // Those that have been handed on, when the file is read in pieces.
@@ -147,11 +149,13 @@ void GeoJsonReader::complain(const char* code, const std::string& what, const st
 }
 
 // Of a feature of several parts the others stay.
-void GeoJsonReader::leaveOut(const char* code, const std::string& why, const std::string& hint) {
+void GeoJsonReader::leaveOut(std::string_view code, const std::string& why,
+                             const std::string& hint) {
   const std::string of = inParts_ ? "a part of " : "";
+  broken_ = broken_ || code != kEmpty;
   if (++leftOut_ > kMostNamed) return;
-  out_.diagnostics.warning(code, {}, of + place() + " of '" + path_ + "' is left out: " + why,
-                           hint);
+  out_.diagnostics.warning(std::string(code), {},
+                           of + place() + " of '" + path_ + "' is left out: " + why, hint);
 }
 
 bool GeoJsonReader::passes(const Feature& f) const {
@@ -367,7 +371,7 @@ void GeoJsonReader::addPolygon(const JsonValue& rings) {
   Polygon p;
   if (!readRing(rings.at(0), p.outer)) return;
   if (p.outer.size() < 3) {
-    leaveOut("geojson-empty", "a polygon has fewer than three corners");
+    leaveOut(kEmpty, "a polygon has fewer than three corners");
     return;
   }
   for (size_t i = 1; i < rings.size(); ++i) {
@@ -411,7 +415,7 @@ void GeoJsonReader::addLine(const JsonValue& coordinates) {
   if (line.size() > 1) {
     lines_.push_back(std::move(line));
   } else {
-    leaveOut("geojson-empty", "a line has fewer than two points");
+    leaveOut(kEmpty, "a line has fewer than two points");
   }
 }
 
@@ -521,7 +525,7 @@ void GeoJsonReader::addFeature(const Feature& f) {
   if (faces_ == 0) {
     if (messages_ + leftOut_ + otherGeometries_ == before) {
       inParts_ = false;
-      leaveOut("geojson-empty", "it has no polygon and no line");
+      leaveOut(kEmpty, "it has no polygon and no line");
     }
     return;
   }
@@ -633,11 +637,11 @@ Error GeoJsonReader::empty() const {
           hint};
 }
 
-// Where all features are left out, why they are is told as well.
+// Where broken features were all there is, why they are left out is told as well.
 Result<ShapeFile> GeoJsonReader::withoutShapes() {
   if (out_.diagnostics.hasErrors()) return std::move(out_);
   const Error e = empty();
-  if (leftOut_ == 0) return e;
+  if (!broken_) return e;
   out_.diagnostics.error(e.code, {}, e.message, e.hint);
   return std::move(out_);
 }
