@@ -346,7 +346,7 @@ class Analysis {
   void reportEmptyFile();
   Value writtenValue(NodeId node);
   void checkWrittenSizes(NodeId block, const OpSpec& op);
-  void checkShare(NodeId node);
+  void checkShare(NodeId size, double share);
   void checkWrittenValue(NodeId node, const ParamSpec& param, std::string_view callee);
   std::optional<double> writtenNumber(NodeId node);
   void warnOfFraction(NodeId node, const std::string& what, double number, std::string hint);

@@ -89,6 +89,17 @@ void Analysis::checkWrittenValue(NodeId node, const ParamSpec& param, std::strin
   errorAt("bad-argument", node, refusalText(param, callee, v, values_), refusalHint(param));
 }
 
+// A part of '50 is fifty times the shape: nobody writes so much by intent.
+void Analysis::checkShare(NodeId size, double share) {
+  constexpr double kLeast = 10, kPercent = 100;
+  if (!(share >= kLeast)) return;
+  const std::string number = shortestText(share);
+  warning("bad-argument", tree().span(size),
+          "a part of '" + number + " is " + number + " times as long as the shape",
+          share <= kPercent ? "write '" + shortestText(share / kPercent) + " for " + number + " %"
+                            : "write " + number + " for metres");
+}
+
 // A size below nothing makes no part: computed ones do so where there is no room.
 void Analysis::checkWrittenSizes(NodeId block, const OpSpec& op) {
   for (const NodeId item : tree().children(block)) {
@@ -97,24 +108,13 @@ void Analysis::checkWrittenSizes(NodeId block, const OpSpec& op) {
     } else if (tree().kind(item) == NodeKind::Item && tree().child(item, 0) != kNoNode) {
       const NodeId size = tree().child(item, 0);
       const Value v = writtenValue(size);
+      if (v.type == ValueType::Float && v.unit == gable::Unit::Relative) checkShare(size, v.number);
       if (v.type != ValueType::Float || !(v.number < 0)) continue;
       warning("bad-argument", tree().span(size),
               "a size of " + quote(op.name) + " below 0 makes no part: " + shortestText(v.number),
               "write 0 or more, or leave the part out");
     }
   }
-}
-
-// '50 is fifty times the size. Nobody writes so much by intent.
-void Analysis::checkShare(NodeId node) {
-  constexpr double kLeast = 10, kMost = 100;
-  const Value v = writtenValue(node);
-  if (v.type != ValueType::Float || !(v.number >= kLeast)) return;
-  const std::string number = shortestText(v.number);
-  warning("bad-argument", tree().span(node),
-          "'" + number + " is " + number + " times the size of the scope",
-          v.number <= kMost ? "write '" + shortestText(v.number / kMost) + " for " + number + " %"
-                            : "write " + number + " for metres");
 }
 
 bool Analysis::hasTerm(NodeId node, std::string_view name) const {
@@ -208,7 +208,6 @@ void Analysis::checkWrittenValues(ModuleId firstModule) {
     body_ = {};
     body_.module = m;
     for (NodeId node = 1; node < tree().size(); ++node) {
-      if (tree().kind(node) == NodeKind::Relative) checkShare(node);
       const Resolution& r = module().at(node);
       if (r.kind == RefKind::Selector && r.spec.term) {
         const auto order = module().namedArguments.find(node);
