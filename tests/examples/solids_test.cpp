@@ -3,9 +3,9 @@
 //
 // The models of examples, as things of solid parts: no faces of two materials in one plane,
 // nothing that nothing carries, and no thing that stands in another. What is not mended yet stands
-// in known_faults.txt. With GABLE_PLACES=TEXT those whose line holds the text are printed: where
-// they are, and how much of it. GABLE_SEEDS=20 looks at so many seeds of each instead of one or
-// two.
+// in known_faults.txt. With GABLE_PLACES=TEXT those whose line holds the text are printed: the
+// seed, where they are, and how much of it. GABLE_SEEDS=20 looks at so many seeds of each instead
+// of one or two.
 
 #include <gtest/gtest.h>
 
@@ -135,14 +135,14 @@ bool mayOverlap(const cases::Parts& parts, uint32_t a, uint32_t b) {
   return fileOf(a) == fileOf(b) || grows(a) || grows(b);
 }
 
-void show(const std::string& what, const cases::SolidFault& fault) {
+void show(const std::string& what, const cases::SolidFault& fault, double seed) {
   static const char* const wanted = std::getenv("GABLE_PLACES");
   if (!wanted || what.find(wanted) == std::string::npos) return;
-  std::cout << what << ": " << fault.amount << " at " << fault.at.x << ' ' << fault.at.y << ' '
-            << fault.at.z << '\n';
+  std::cout << "seed " << seed << ": " << what << ": " << fault.amount << " at " << fault.at.x
+            << ' ' << fault.at.y << ' ' << fault.at.z << '\n';
 }
 
-FaultCounts faultsOf(const Scene& scene) {
+FaultCounts faultsOf(const Scene& scene, double seed) {
   const cases::Parts parts(scene);
   FaultCounts counts;
   const auto label = [&](uint32_t i) { return parts.rule(i) + ":" + parts.name(i); };
@@ -151,7 +151,7 @@ FaultCounts faultsOf(const Scene& scene) {
     if (b < a) std::swap(a, b);
     const std::string what = std::string(kind) + " " + a + " " + b;
     ++counts[what];
-    show(what, fault);
+    show(what, fault, seed);
   };
   for (const cases::SolidFault& f : cases::coplanarFaces(parts, 0)) addPair("coplanar", f);
   const auto skip = [&](uint32_t a, uint32_t b) { return mayOverlap(parts, a, b); };
@@ -159,7 +159,7 @@ FaultCounts faultsOf(const Scene& scene) {
   for (const cases::SolidFault& f : cases::floatingParts(parts, 0)) {
     const std::string what = "floating " + label(f.first);
     ++counts[what];
-    show(what, f);
+    show(what, f, seed);
   }
   return counts;
 }
@@ -181,7 +181,7 @@ TEST_P(Solids, standFreeOfFaults) {
     const Model model = derive(rules, shapesOf(example), settings);
     ASSERT_FALSE(hasErrors(model.diagnostics())) << render(model.diagnostics());
     EXPECT_GT(count(model.impl().result.scene).leaves, 3u);
-    for (const auto& [what, count] : faultsOf(model.impl().result.scene)) {
+    for (const auto& [what, count] : faultsOf(model.impl().result.scene, settings.seed)) {
       most[what] = std::max(most[what], count);
     }
   }
