@@ -351,13 +351,17 @@ void finish(OpCall& call, RegionJob& job, std::span<const Placer> placers, uint3
     nested += p.nested();
     cuts = cuts || p.cuts();
   }
-  if (nested > 0) {
-    call.services().warn("place-occupied",
-                         "'" + std::string(call.spec().name) + "': " + std::to_string(nested) +
-                             " figures were left out, because others stand there",
-                         "place them farther apart, or make them smaller");
-  }
   const bool nothing = placers.empty() || placers.back().count() == 0;
+  if (nested > 0) {
+    std::string what = "'" + std::string(call.spec().name) + "': " + std::to_string(nested) +
+                       (nested == 1 ? " figure was" : " figures were") +
+                       " left out, because others stand there";
+    const char* const hint = "place them farther apart, or make them smaller";
+    if (nothing)
+      call.services().warn("place-occupied", std::move(what), hint);
+    else
+      call.services().note("place-occupied", std::move(what), hint);
+  }
   const bool given = nothing && call.giveToOtherwise();
   if (outside > 0 && !given) {
     call.services().warn("place-outside",

@@ -40,8 +40,8 @@ std::vector<Disc> discsIn(OpCall& call, const ScatterCircles& args, const DrawnN
   o.edge = args.edge;
   o.seed = seed;
   discs = scatterDiscs(p, o);
-  if (discs.size() < o.count) {
-    call.services().warn("scatter-full",
+  if (!discs.empty() && discs.size() < o.count) {
+    call.services().note("scatter-full",
                          "'scatterCircles': " + std::to_string(discs.size()) + " of " +
                              std::to_string(o.count) + " discs found a place",
                          "scatter fewer or smaller ones");
@@ -80,8 +80,7 @@ Status applyScatterCircles(OpCall& call, const ScatterCircles& args) {
     left.push_back(combineTraced(BooleanOp::Difference, wholePiece(view.polygon()), taken, made));
   }
   if (piece == 0) {
-    // A count has been told of already.
-    if (args.count == 0 && !slotOf(call, "otherwise")) {
+    if (!slotOf(call, "otherwise")) {
       call.services().warn("scatter-full", "'scatterCircles': no disc found a place",
                            "write smaller ones, or what else shall happen: otherwise : ...");
     }

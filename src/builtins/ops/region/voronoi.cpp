@@ -121,7 +121,7 @@ Status applyVoronoi(OpCall& call, const Voronoi& args) {
     o.seed = call.randomAddress(500 + f);
     VoronoiResult v = voronoiPartition(view.polygon(), sites, o);
     if (sites.size() < wanted) {
-      call.services().warn("scatter-full",
+      call.services().note("scatter-full",
                            "'voronoi': " + std::to_string(sites.size()) + " of " +
                                std::to_string(wanted) + " sites found a place",
                            "write fewer sites, or a smaller radius");
