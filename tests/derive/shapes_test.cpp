@@ -109,7 +109,7 @@ TEST(Shapes, valuesThatTheRulesDoNotExpectAreToldOnce) {
   const Diagnostic &roof = model.diagnostics()[0], &levels = model.diagnostics()[1];
   EXPECT_EQ(roof.code, "attribute-value");
   EXPECT_EQ(roof.severity, Diagnostic::Severity::Warning);
-  EXPECT_EQ(roof.message, "'roof' is one of: flat, gable, not gabel, in shape 'a0' and one more");
+  EXPECT_EQ(roof.message, "'roof' is one of: flat, gable, not gabel, in feature 1 (id a0) and one more");
   EXPECT_EQ(roof.hint, "did you mean 'gable'?");
   EXPECT_EQ(levels.code, "attribute-outside");
   EXPECT_EQ(levels.message.find("and"), std::string::npos) << levels.message;
