@@ -150,6 +150,7 @@ class Analysis {
   using RankedDeclarations = std::vector<std::pair<size_t, const Declaration*>>;
   static void inheritAnnotations(AttributeInfo& a, const Tree& t,
                                  const RankedDeclarations& declarations);
+  void warnOfNamesOfImports(ModuleId module);
   void addImports(ModuleId module);
   void checkOverrides(ModuleId module, NodeId overrides);
   bool isOpenAttribute(ModuleId module, std::string_view name) const;

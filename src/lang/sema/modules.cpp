@@ -555,6 +555,30 @@ bool Analysis::tooManyModules(uint32_t unit) const {
          nodes_ + program_.units[unit].tree->size() > kMaxModuleNodes;
 }
 
+// Whoever declares 'trees.season' wants to set the attribute of the import, and gets one more.
+void Analysis::warnOfNamesOfImports(ModuleId module) {
+  if (program_.modules[module].original != module) return;
+  const Tree& t = program_.tree(module);
+  for (const Declaration& d : units_[program_.modules[module].unit].attributes) {
+    const std::string_view name = t.text(d.node);
+    const size_t dot = name.find('.');
+    if (dot == std::string_view::npos) continue;
+    const auto import = scopes_[module].imports.find(name.substr(0, dot));
+    if (import == scopes_[module].imports.end()) continue;
+    const std::string own(name.substr(dot + 1));
+    std::vector<std::string_view> theirs;
+    for (const auto& [known, id] : scopes_[import->second].attributes) theirs.push_back(known);
+    std::sort(theirs.begin(), theirs.end());
+    const bool isTheirs = std::binary_search(theirs.begin(), theirs.end(), own);
+    warning("name-of-import", nameSpan(t, d.node),
+            quote(name) + " is one more attribute of this file: the import " +
+                quote(import->first) + (isTheirs ? " keeps its " : " has no ") + quote(own),
+            isTheirs ? "write 'attr " + own + "', which goes to imports as well, or (" + own +
+                           " = ...) behind the import"
+                     : didYouMean(own, theirs));
+  }
+}
+
 void Analysis::addImports(ModuleId module) {
   const uint32_t unit = program_.modules[module].unit;
   for (size_t i = 0; i < units_[unit].imports.size(); ++i) {
@@ -578,6 +602,7 @@ void Analysis::addImports(ModuleId module) {
     addImports(child);
   }
   chooseOriginal(module);
+  warnOfNamesOfImports(module);
 }
 
 void Analysis::bindRuleOverride(ModuleId module, NodeId rule, ModuleId owner) {
