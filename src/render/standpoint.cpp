@@ -4,8 +4,8 @@
 // A street view is searched, not computed: some hundred places in and around the scene are tried,
 // those under a roof or against a wall dropped, and from each one a coarse picture is taken in
 // every direction and marked for what makes a good photograph: walls over half of it, a quarter of
-// sky, depth, two thirds of the walls in the sun, something near but nothing in the way, and no
-// wall at arm's length beside it.
+// sky, depth, two thirds of the walls in the sun, something near but nothing in the way, no wall at
+// arm's length beside it, and the front of what stands alone.
 //
 // A place that is wide has ground of its own, which may be a hill: there the eye stands on it, away
 // from its border, and looks along a street. Ground is told from roofs as surveys by laser tell it:
@@ -168,6 +168,13 @@ double markInPlace(const Subject& s, const Camera& camera, double ahead) {
          2 * off(std::log2(widthBeside(s, camera)), 0, 4.3);
 }
 
+/// How far somebody looks at the back of what stands alone, from 0 to 1.
+double behind(const Subject& s, const Camera& camera) {
+  if (isPlace(s)) return 0;
+  const Vec3 front{sinDeg(s.frontAzimuth), 0, -cosDeg(s.frontAzimuth)};
+  return std::max(0.0, dot(camera.forward, front));
+}
+
 double mark(const Subject& s, const Vec3f& towardsSun, const Camera& camera, double aspect) {
   const bool place = isPlace(s);
   const double footY = camera.eye.y - kEyeHeight;
@@ -238,7 +245,7 @@ double mark(const Subject& s, const Vec3f& towardsSun, const Camera& camera, dou
          4 * off(close[1] / third, 0, 0.3) - 4 * off(sides[0] / third, 0.4, 1) -
          4 * off(sides[1] / third, 0.4, 1) -
          1.2 * off(static_cast<double>(cut) / kColumns, 0, 0.3) + markInPlace(s, camera, ahead) -
-         3 * nearnessBeside(s, camera);
+         3 * nearnessBeside(s, camera) - 3 * behind(s, camera);
 }
 
 struct Standpoint {
