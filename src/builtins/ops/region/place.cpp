@@ -343,8 +343,11 @@ uint32_t outsideOf(const RegionJob& job, std::span<const Vec2> places) {
   return outside;
 }
 
-// The shape becomes what the figures leave of it.
-void finish(OpCall& call, RegionJob& job, std::span<const Placer> placers, uint32_t outside = 0) {
+// The shape becomes what the figures leave of it. `outside`: places that lie beyond the region.
+// `asked`: somebody has said where each figure stands; else the border has, and that none of a few
+// has room is no mistake.
+void finish(OpCall& call, RegionJob& job, std::span<const Placer> placers, bool asked,
+            uint32_t outside = 0) {
   uint32_t nested = 0;
   bool cuts = false;
   for (const Placer& p : placers) {
@@ -357,7 +360,7 @@ void finish(OpCall& call, RegionJob& job, std::span<const Placer> placers, uint3
                        (nested == 1 ? " figure was" : " figures were") +
                        " left out, because others stand there";
     const char* const hint = "place them farther apart, or make them smaller";
-    if (nothing)
+    if (nothing && asked)
       call.services().warn("place-occupied", std::move(what), hint);
     else
       call.services().note("place-occupied", std::move(what), hint);
@@ -394,7 +397,7 @@ Status applyPlace(OpCall& call, const Place& args) {
     }
     if (placers.back().bad()) return badFigure(call);
   }
-  finish(call, job, placers, outsideOf(job, places));
+  finish(call, job, placers, true, outsideOf(job, places));
   return {};
 }
 
@@ -508,7 +511,7 @@ Status applyDistribute(OpCall& call, const Distribute& args) {
     for (const Station& s : stations) placers.back().add(s.at, s.along);
     if (placers.back().bad()) return badFigure(call);
   }
-  finish(call, job, placers);
+  finish(call, job, placers, false);
   return {};
 }
 
