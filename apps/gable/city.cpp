@@ -142,10 +142,6 @@ int buildModel(const gable::City& city, CityArguments& arguments, const Making& 
   return statusOf(model);
 }
 
-}  // namespace
-
-namespace {
-
 int makeCity(const CityArguments& given) {
   CityArguments arguments = given;
   const double begin = secondsNow();
@@ -219,6 +215,5 @@ int makeCity(const CityArguments& given) {
 
 int runCity(const CityArguments& arguments) {
   hasWarned();
-  const int status = makeCity(arguments);
-  return status == kExitDone && arguments.strict && hasWarned() ? kExitWrong : status;
+  return strictStatus(makeCity(arguments), arguments.strict);
 }

@@ -85,8 +85,7 @@ int generateOnce(const GenerateArguments& arguments) {
     const std::string text = gable::statisticsJson(model, figures);
     if (const int status = writeCounts(arguments.stats, text)) return status;
   }
-  const int status = statusOf(model);
-  return status == kExitDone && arguments.strict && hasWarned() ? kExitWrong : status;
+  return strictStatus(statusOf(model), arguments.strict);
 }
 
 }  // namespace

@@ -95,19 +95,20 @@ void printStartRules(const gable::Rules& rules, bool all) {
   printRest(rest);
 }
 
+std::string placeOf(const gable::RuleInfo& r) { return r.file + ":" + std::to_string(r.line); }
+
 // The file's own first, then those of imports by file. What is imported twice is listed once: under
 // the name of the first import.
-template <class Info, class FileOf>
-std::vector<const Info*> byFile(const std::vector<Info>& all, FileOf fileOf) {
-  std::vector<const Info*> out;
+std::vector<gable::RuleInfo> byFile(const std::vector<gable::RuleInfo>& all) {
+  std::vector<gable::RuleInfo> out;
   std::set<std::pair<std::string, std::string>> known;
-  for (const Info& one : all) {
-    const std::string last = one.name.substr(one.name.rfind('.') + 1);
-    if (known.emplace(fileOf(one), last).second) out.push_back(&one);
+  for (const gable::RuleInfo& r : all) {
+    const std::string last = r.name.substr(r.name.rfind('.') + 1);
+    if (known.emplace(placeOf(r), last).second) out.push_back(r);
   }
-  std::stable_sort(out.begin(), out.end(), [&](const Info* a, const Info* b) {
-    const bool ownA = !isImported(a->name), ownB = !isImported(b->name);
-    return ownA != ownB ? ownA : !ownA && fileOf(*a) < fileOf(*b);
+  std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& b) {
+    const bool ownA = !isImported(a.name), ownB = !isImported(b.name);
+    return ownA != ownB ? ownA : !ownA && placeOf(a) < placeOf(b);
   });
   return out;
 }
@@ -121,14 +122,11 @@ void printOtherRules(const gable::Rules& rules) {
     if (!starts) others.push_back(r);
   }
   title("other rules", !others.empty());
-  const auto placeOf = [](const gable::RuleInfo& r) {
-    return r.file + ":" + std::to_string(r.line);
-  };
-  for (const gable::RuleInfo* r : byFile(others, placeOf)) {
-    const std::string count = r->parameters == 0   ? ""
-                              : r->parameters == 1 ? "1 parameter"
-                                                   : std::to_string(r->parameters) + " parameters";
-    row(r->name, placeOf(*r), count);
+  for (const gable::RuleInfo& r : byFile(others)) {
+    const std::string count = r.parameters == 0   ? ""
+                              : r.parameters == 1 ? "1 parameter"
+                                                  : std::to_string(r.parameters) + " parameters";
+    row(r.name, placeOf(r), count);
   }
 }
 

@@ -137,6 +137,10 @@ void put(const std::string& text) {
 
 bool hasWarned() { return std::exchange(warned, false); }
 
+int strictStatus(int status, bool strict) {
+  return status == kExitDone && strict && hasWarned() ? kExitWrong : status;
+}
+
 bool hasTold() { return std::exchange(told, false); }
 
 void note(const std::string& text) {

@@ -46,6 +46,8 @@ void print(const gable::DiagnosticList& diagnostics, std::FILE* stream = stderr)
 
 /// Whether print() got a warning since the last question, shown or not.
 bool hasWarned();
+/// kExitWrong in place of kExitDone where `strict` and there was a warning since.
+int strictStatus(int status, bool strict);
 
 /// Says what went well, to people: nothing with --quiet or --json.
 void tell(const std::string& text);

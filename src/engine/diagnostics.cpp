@@ -44,7 +44,7 @@ std::string quotedName(const std::string& message) {
   return to == std::string::npos ? std::string() : message.substr(from + 1, to - from - 1);
 }
 
-constexpr std::string_view kAboutToldOnce[] = {"missing-file", "missing-texture", "missing-asset",
+constexpr std::string_view kAboutMissingFiles[] = {"missing-file", "missing-texture", "missing-asset",
                                                "shape-texture-missing", "unknown-material"};
 
 // The file that such a message is about; of a material its name, which stands last.
@@ -56,8 +56,8 @@ std::string missingName(const Diagnostic& d) {
 }
 
 bool isAboutMissingFile(const Diagnostic& d) {
-  return std::find(std::begin(kAboutToldOnce), std::end(kAboutToldOnce), d.code) !=
-         std::end(kAboutToldOnce);
+  return std::find(std::begin(kAboutMissingFiles), std::end(kAboutMissingFiles), d.code) !=
+         std::end(kAboutMissingFiles);
 }
 
 constexpr std::string_view kCapped = "tint-capped";

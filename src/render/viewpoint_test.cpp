@@ -206,31 +206,24 @@ TEST(Viewpoint, frontIsAnElevation) {
   EXPECT_NEAR(r.low, c.horizon, 1e-6);
 }
 
-TEST(Viewpoint, twigsThatReachDeepAreNoTerrain) {
+/// Where the ground is found under two boxes on a lot at height 0: corner and size of each.
+double footUnder(const Vec3& a, const Vec3& sizeOfA, const Vec3& b, const Vec3& sizeOfB) {
   SceneMaker m;
   const uint32_t grey = m.material("#909090");
-  m.box({0, 0, 0}, {20, 9, 10}, grey);
-  m.box({30, -4, 0}, {0.1, 12, 0.1}, grey);
+  m.box(a, sizeOfA, grey);
+  m.box(b, sizeOfB, grey);
   Scene& lot = m.finish();
   lot.place.include(Vec3{});
-  EXPECT_NEAR(Set(lot).world.footHeight, 0, 1e-6);
+  const World world = makeWorld(lot, nullptr);
+  return world.footHeight + world.origin.y;
+}
+
+TEST(Viewpoint, twigsThatReachDeepAreNoTerrain) {
+  EXPECT_NEAR(footUnder({0, 0, 0}, {20, 9, 10}, {30, -4, 0}, {0.1, 12, 0.1}), 0, 1e-6);
   // A cellar does.
-  SceneMaker deep;
-  const uint32_t stone = deep.material("#909090");
-  deep.box({0, 0, 0}, {20, 9, 10}, stone);
-  deep.box({30, -4, 0}, {3, 4, 3}, stone);
-  Scene& cellar = deep.finish();
-  cellar.place.include(Vec3{});
-  EXPECT_NEAR(Set(cellar).world.footHeight, -4, 1e-6);
+  EXPECT_NEAR(footUnder({0, 0, 0}, {20, 9, 10}, {30, -4, 0}, {3, 4, 3}), -4, 1e-6);
   // And so do posts that stand on the lot.
-  SceneMaker raised;
-  const uint32_t wood = raised.material("#909090");
-  raised.box({0, 4, 0}, {20, 9, 10}, wood);
-  raised.box({1, 0, 1}, {0.1, 4, 0.1}, wood);
-  Scene& posts = raised.finish();
-  posts.place.include(Vec3{});
-  const World onPosts = makeWorld(posts, nullptr);
-  EXPECT_NEAR(onPosts.footHeight + onPosts.origin.y, 0, 1e-6);
+  EXPECT_NEAR(footUnder({0, 4, 0}, {20, 9, 10}, {1, 0, 1}, {0.1, 4, 0.1}), 0, 1e-6);
 }
 
 TEST(Viewpoint, frontFollowsTurnedWalls) {
